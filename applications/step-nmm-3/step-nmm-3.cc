@@ -255,7 +255,7 @@ namespace StepNMM3
     AffineConstraints<double>                  constraints;
     std::unique_ptr<NMM::QuadratureCollection> quadrature;
     std::unique_ptr<NMM::FiniteElasticity>     elasticity;
-    std::unique_ptr<NMM::ElasticSystem>        system;
+    std::unique_ptr<NMM::StaticSolid>          solid;
     std::unique_ptr<NMM::Contact>              contact;
     std::unique_ptr<NMM::ContactStatics>       statics;
   };
@@ -289,7 +289,7 @@ namespace StepNMM3
                                                          *quadrature,
                                                          constraints,
                                                          problem);
-    system = std::make_unique<NMM::ElasticSystem>(*elasticity, setup.is_linear);
+    solid = std::make_unique<NMM::StaticSolid>(*elasticity, setup.is_linear);
 
     // Of two bodies the softer one carries the contact points: the stiff one's
     // boundary bends less from edge to edge.
@@ -299,7 +299,7 @@ namespace StepNMM3
         setup.contact.slave_priority[region.block] = 1;
     contact =
       std::make_unique<NMM::Contact>(*surface, constraints, setup.contact);
-    statics = std::make_unique<NMM::ContactStatics>(*system, *contact);
+    statics = std::make_unique<NMM::ContactStatics>(*solid, *contact);
     measurement.setup_time = timer.cpu_time() - measurement.cutting_time;
     measurement.n_unknowns =
       2 * (covers->n_covers() - aggregation.cover_to_root.size());

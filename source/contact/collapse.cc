@@ -141,7 +141,7 @@ namespace NMM
       std::vector<Rigid>
       forces_on_blocks(const CoverSystem              &covers,
                        const std::vector<BlockMotion> &blocks,
-                       const ElasticSystem::Vector    &forces)
+                       const StaticSolid::Vector      &forces)
       {
         const ManifoldMesh       &mesh = covers.manifold_mesh();
         std::vector<unsigned int> cover_to_block(covers.n_covers(), 0);
@@ -291,29 +291,24 @@ namespace NMM
 
 
     std::vector<BlockMotion>
-    find_collapse(ElasticSystem                  &system,
+    find_collapse(StaticSolid                    &solid,
                   Contact                        &contact,
-                  const ElasticSystem::Vector    &u,
+                  const StaticSolid::Vector      &u,
                   const std::vector<BlockMotion> &blocks,
                   const double                    factor)
     {
-      const CoverSystem &covers = system.elasticity().cover_system();
+      const CoverSystem &covers = solid.elasticity().cover_system();
       if (dealii::Utilities::MPI::n_mpi_processes(covers.communicator()) > 1)
         return {};
       // The loads are proportional to the load factor.
-      const auto residual = [&](const double at) {
-        system.set_load_factor(at);
-        (void)system.assemble(u, Tangent::none, nullptr);
-        return system.residual();
-      };
-      ElasticSystem::Vector loads = residual(0.);
-      loads.add(-1., residual(factor));
+      StaticSolid::Vector loads = solid.residual_at(u, 0.);
+      loads.add(-1., solid.residual_at(u, factor));
       contact.detect(u);
       if (!contact.is_idle())
         contact.assemble(u, /* with_tangent = */ false);
 
       RigidBlocks rigid(blocks);
-      add_supports(covers, system.elasticity().elasticity_problem(), rigid);
+      add_supports(covers, solid.elasticity().elasticity_problem(), rigid);
       if (!contact.is_idle())
         add_contact(contact, rigid);
       const std::vector<Rigid> v =

@@ -3,7 +3,7 @@
 
 #include <nmm/contact/contact.h>
 #include <nmm/mechanics/block_motion.h>
-#include <nmm/mechanics/elastic_system.h>
+#include <nmm/mechanics/static_solid.h>
 
 #include <array>
 #include <vector>
@@ -71,9 +71,9 @@ namespace NMM
      * contact is left at @p u.
      */
     std::vector<BlockMotion>
-    find_collapse(ElasticSystem                  &system,
+    find_collapse(StaticSolid                    &solid,
                   Contact                        &contact,
-                  const ElasticSystem::Vector    &u,
+                  const StaticSolid::Vector      &u,
                   const std::vector<BlockMotion> &blocks,
                   double                          factor);
   } // namespace internal

@@ -195,6 +195,13 @@ namespace NMM
 
 
   bool
+  Contact::is_detected() const
+  {
+    return data->stage != Data::Stage::created;
+  }
+
+
+  bool
   Contact::is_idle() const
   {
     return data->is_idle;

@@ -11,48 +11,6 @@ namespace NMM
   using namespace internal;
   using dealii::Tensor;
 
-  ContactSystem::ContactSystem(NonlinearSystem &elasticity, Contact &contact)
-    : elasticity(&elasticity)
-    , contact(&contact)
-    , sum(contact.residual())
-  {
-  }
-
-
-  Deformation
-  ContactSystem::assemble(const Vector &u,
-                          const Tangent tangent,
-                          const Vector *increment)
-  {
-    const Deformation state = elasticity->assemble(u, tangent, increment);
-    if (state != Deformation::admissible)
-      return state;
-    const AssembledSystem &elastic = elasticity->assembled();
-    result                         = elastic;
-    if (contact->is_idle() && held_forces.size() == 0)
-      return state;
-    sum             = *elastic.residual;
-    result.residual = &sum;
-    if (held_forces.size() > 0)
-      sum.add(-held_share, held_forces);
-    if (contact->is_idle())
-      return state;
-    const bool with_tangent = tangent != Tangent::none;
-    contact->assemble(u, with_tangent);
-    sum += contact->residual();
-    if (with_tangent)
-      contact->add_to_tangent(*elastic.tangent);
-    result.force_scale =
-      std::hypot(elastic.force_scale, contact->residual().l2_norm());
-    result.force_rounding = contact->force_rounding();
-    result.tangent        = &contact->tangent();
-    result.is_symmetric =
-      elastic.is_symmetric && contact->tangent_is_symmetric();
-    result.pattern_version = contact->pattern_version();
-    return state;
-  }
-
-
   namespace internal
   {
     /**
@@ -71,12 +29,11 @@ namespace NMM
     class ContactEquilibrium : public EquilibriumSearch
     {
     public:
-      ContactEquilibrium(ElasticSystem          &elasticity,
+      ContactEquilibrium(StaticSystem           &system,
                          Contact                &contact,
                          const NewtonParameters &parameters)
-        : elasticity(&elasticity)
+        : system(&system)
         , contact(&contact)
-        , system(elasticity, contact)
         , newton(parameters)
         , parameters(parameters)
       {
@@ -86,14 +43,9 @@ namespace NMM
       find(LoadStep &step, Vector &u, const Vector *change) override;
 
       void
-      accept(const Vector &u) override
+      accept(const Vector &) override
       {
-        // Newton's method leaves contact out where nothing is near.
-        if (contact->is_idle())
-          contact->assemble(u, /* with_tangent = */ false);
-        found.dissipated = contact->accept();
-        reached          = found.load_factor;
-        largest_reached  = std::max(largest_reached, reached);
+        reached = found.load_factor;
       }
 
       void
@@ -104,11 +56,6 @@ namespace NMM
 
       /// Data of the last step beside its LoadStep.
       ContactStep found;
-      /// Hold the forces of the undeformed state @p u, to which contact has just been accepted, that
-      /// are out of balance without loads.
-      void
-      hold_initial_forces(const Vector &u);
-
       /// Load factor of the last accepted step, at which the next one begins.
       double reached = 0.;
 
@@ -126,29 +73,13 @@ namespace NMM
       bool
       break_bonds();
 
-      ElasticSystem   *elasticity;
+      StaticSystem    *system;
       Contact         *contact;
-      ContactSystem    system;
       NewtonSolver     newton;
       NewtonParameters parameters;
       ContactHistory   history;
-      unsigned int     n_breaks        = 0;
-      double           largest_reached = 0.;
+      unsigned int     n_breaks = 0;
     };
-
-
-    void
-    ContactEquilibrium::hold_initial_forces(const Vector &u)
-    {
-      if (contact->parameters().initial_stress.empty())
-        return;
-      elasticity->set_load_factor(0.);
-      (void)elasticity->assemble(u, Tangent::none, nullptr);
-      Vector forces = elasticity->residual();
-      if (!contact->is_idle())
-        forces += contact->residual();
-      system.hold(forces);
-    }
 
 
     /// Break the bonds with the largest stress. The remaining ones get a new equilibrium before
@@ -209,9 +140,6 @@ namespace NMM
       const unsigned int n =
         is_augmented ? contact->parameters().max_augmentations + 1 : n_plain;
 
-      // What has been released once stays so.
-      system.set_held_share(
-        std::max(0., 1. - std::max(largest_reached, step.load_factor)));
       found              = ContactStep();
       found.load_factor  = step.load_factor;
       n_breaks           = 0;
@@ -230,8 +158,8 @@ namespace NMM
         if (i == 0 && change != nullptr && !contact->is_idle())
           contact->assemble(detected, /* with_tangent = */ false);
         step.newton =
-          solver.solve(system,
-                       elasticity->elasticity().affine_constraints(),
+          solver.solve(*system,
+                       system->solid().elasticity().affine_constraints(),
                        u,
                        i == 0 ? change : nullptr);
         step.n_iterations += step.newton.iterations.size();
@@ -251,7 +179,7 @@ namespace NMM
         const bool is_settled =
           (i > 0 && step.newton.iterations.front().relative_residual <=
                       100. * parameters.residual_tolerance) ||
-          (elasticity->is_linearized() &&
+          (system->solid().is_linearized() &&
            find_largest_motion(detected, u) <=
              small_motion * contact->parameters().reach);
         if (!is_augmented)
@@ -283,18 +211,28 @@ namespace NMM
 
   struct ContactStatics::Data
   {
-    Data(ElasticSystem          &elasticity,
-         Contact                &contact,
-         const NewtonParameters &newton)
-      : elasticity(&elasticity)
-      , contact(&contact)
-      , search(elasticity, contact, newton)
-      , statics(elasticity, search)
+    Data(StaticSolid             &solid,
+         Contact                 &contact,
+         const NewtonParameters  &newton,
+         std::vector<ForceTerm *> others)
+      : contact(&contact)
+      , touch(solid.layout(), contact)
+      , system(solid, with(touch, std::move(others)))
+      , search(system, contact, newton)
+      , statics(system, search)
     {
     }
 
-    ElasticSystem     *elasticity;
+    static std::vector<ForceTerm *>
+    with(ContactTerm &touch, std::vector<ForceTerm *> others)
+    {
+      others.insert(others.begin(), &touch);
+      return others;
+    }
+
     Contact           *contact;
+    ContactTerm        touch;
+    StaticSystem       system;
     ContactEquilibrium search;
     NonlinearStatics   statics;
   };
@@ -313,10 +251,11 @@ namespace NMM
   }
 
 
-  ContactStatics::ContactStatics(ElasticSystem          &elasticity,
-                                 Contact                &contact,
-                                 const NewtonParameters &newton)
-    : data(std::make_unique<Data>(elasticity, contact, newton))
+  ContactStatics::ContactStatics(StaticSolid                    &solid,
+                                 Contact                        &contact,
+                                 const NewtonParameters         &newton,
+                                 const std::vector<ForceTerm *> &others)
+    : data(std::make_unique<Data>(solid, contact, newton, others))
   {
   }
 
@@ -343,7 +282,7 @@ namespace NMM
   {
     steps.check();
     Data &d = *data;
-    d.contact->freeze_geometry(d.elasticity->is_linearized());
+    d.contact->freeze_geometry(d.system.solid().is_linearized());
     const std::shared_ptr<void> thaw(nullptr, [&d](void *) {
       d.contact->freeze_geometry(false);
     });
@@ -358,13 +297,16 @@ namespace NMM
       d.contact->detect(solution());
       d.contact->assemble(solution(), false);
       d.contact->accept();
-      d.search.hold_initial_forces(solution());
+      if (!d.contact->parameters().initial_stress.empty())
+        (void)d.system.hold_initial_forces(solution());
     }
     std::vector<ContactStep> result;
     d.statics.run(steps, [&](const LoadStep &step, const Vector &u) {
       result.push_back(d.search.found);
       static_cast<LoadStep &>(result.back()) = step;
-      result.back().dissipated_by_material   = d.statics.dissipated();
+      result.back().dissipated               = d.touch.dissipated();
+      result.back().dissipated_by_material =
+        d.statics.dissipated() - d.touch.dissipated();
       if (after_step)
         after_step(result.back(), u);
     });

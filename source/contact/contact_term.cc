@@ -22,7 +22,6 @@ namespace NMM
     internal::ActiveItems        active_rows;
     Vector                       sum;
     double                       step_end = 0., dissipated = 0.;
-    bool                         is_detected = false;
     /// The tangent as a body matrix (null until it is needed).
     std::unique_ptr<BodyMatrix> body_matrix;
     /// For each block, whether it is active; empty: all are.
@@ -179,7 +178,6 @@ namespace NMM
     d.contact->freeze_geometry(d.update == ContactUpdate::every_step &&
                                step.imbalance > near_rest);
     d.contact->detect(step.u, reaches);
-    d.is_detected = true;
     if (!d.contact->is_idle())
     {
       ContactTimeStep contact_step(*d.contact);
@@ -203,11 +201,8 @@ namespace NMM
       return Deformation::admissible;
     }
     d.contact->set_time(trial.end_time);
-    if (!d.is_detected)
-    {
+    if (!d.contact->is_detected())
       d.contact->detect(*trial.end);
-      d.is_detected = true;
-    }
     if (d.contact->is_idle())
       return Deformation::admissible;
     const bool with_tangent = trial.tangent != Tangent::none;
@@ -250,6 +245,15 @@ namespace NMM
   {
     Data    &d = *data;
     StepWork work;
+    // At rest, points that touch have been found by the search for the equilibrium, but Newton's
+    // method leaves contact out where nothing is near.
+    if (step.begin == nullptr)
+    {
+      if (d.contact->is_idle())
+        d.contact->assemble(*step.end, /* with_tangent = */ false);
+      work.dissipated = d.dissipated = d.contact->accept();
+      return work;
+    }
     if (!d.contact->is_idle())
       work.supports = ContactTimeStep(*d.contact)
                         .work_of_obstacles(step.begin_time, step.end_time);
@@ -275,7 +279,6 @@ namespace NMM
     if (is_absent == surface.absent_bodies())
       return;
     d.contact->set_absent_bodies(is_absent);
-    d.is_detected = false;
   }
 
 
@@ -299,7 +302,6 @@ namespace NMM
   ContactTerm::restore_history(const ContactHistory &history)
   {
     data->contact->restore_history(history);
-    data->is_detected = false;
   }
 
 

@@ -119,7 +119,7 @@ namespace NMM
       // Loads that do not follow u are evaluated in the undeformed state, so that they are bitwise
       // the same in each call.
       const Vector &at = has_follower ? u : zero;
-      known_forces.reinit(unknowns.locally_owned, unknowns.communicator);
+      known_forces.reinit(layout().locally_owned, layout().communicator);
       set_amplitudes(amplitudes_at(t, /* with_loads = */ false));
       if (elasticity->assemble(at, 1., Tangent::none) ==
           Deformation::admissible)

@@ -23,12 +23,12 @@ namespace NMM
     }
 
 
-    /// Search by Newton's method for the elastic system alone, without contact.
+    /// Search by Newton's method.
     class PlainSearch : public EquilibriumSearch
     {
     public:
-      PlainSearch(ElasticSystem &elasticity, const NewtonParameters &parameters)
-        : elasticity(&elasticity)
+      PlainSearch(StaticSystem &system, const NewtonParameters &parameters)
+        : system(&system)
         , newton(parameters)
       {
       }
@@ -37,8 +37,8 @@ namespace NMM
       find(LoadStep &step, Vector &u, const Vector *change) override
       {
         step.newton =
-          newton.solve(*elasticity,
-                       elasticity->elasticity().affine_constraints(),
+          newton.solve(*system,
+                       system->solid().elasticity().affine_constraints(),
                        u,
                        change);
         step.n_iterations      = step.newton.iterations.size();
@@ -51,8 +51,8 @@ namespace NMM
       }
 
     private:
-      ElasticSystem *elasticity;
-      NewtonSolver   newton;
+      StaticSystem *system;
+      NewtonSolver  newton;
     };
   } // namespace
 
@@ -73,10 +73,11 @@ namespace NMM
     StepFault
     try_step(const LoadSteps &steps, LoadStep &step, Vector &u);
 
-    std::unique_ptr<ElasticSystem>     own_system;
+    std::unique_ptr<StaticSolid>       own_solid;
+    std::unique_ptr<StaticSystem>      own_system;
     std::unique_ptr<EquilibriumSearch> own_search;
-    ElasticSystem                     *elasticity = nullptr;
-    EquilibriumSearch                 *search     = nullptr;
+    StaticSystem                      *system = nullptr;
+    EquilibriumSearch                 *search = nullptr;
     std::vector<State>                 states;
     LoadStep                           current;
     Vector                             iterate;
@@ -88,33 +89,44 @@ namespace NMM
     bool has_equilibrium = false;
 
     void
-    initialize(ElasticSystem &system, EquilibriumSearch &used_search)
+    initialize(StaticSystem &used_system, EquilibriumSearch &used_search)
     {
-      elasticity = &system;
-      search     = &used_search;
-      states.push_back({0., system.elasticity().initial_solution()});
-      for (const Material &material :
-           system.elasticity().elasticity_problem().materials)
+      system                             = &used_system;
+      search                             = &used_search;
+      const FiniteElasticity &elasticity = system->solid().elasticity();
+      states.push_back({0., elasticity.initial_solution()});
+      for (const Material &material : elasticity.elasticity_problem().materials)
         begins_out_of_balance =
           begins_out_of_balance || material.initial_stress.norm() > 0.;
+    }
+
+    /// Begin with Newton's method for the forces of @p solid and @p others.
+    void
+    initialize(StaticSolid                    &solid,
+               const NewtonParameters         &parameters,
+               const std::vector<ForceTerm *> &others)
+    {
+      own_system = std::make_unique<StaticSystem>(solid, others);
+      own_search = std::make_unique<PlainSearch>(*own_system, parameters);
+      initialize(*own_system, *own_search);
     }
   };
 
 
-  NonlinearStatics::NonlinearStatics(ElasticSystem     &elasticity,
+  NonlinearStatics::NonlinearStatics(StaticSystem      &system,
                                      EquilibriumSearch &search)
     : data(std::make_unique<Data>())
   {
-    data->initialize(elasticity, search);
+    data->initialize(system, search);
   }
 
 
-  NonlinearStatics::NonlinearStatics(ElasticSystem          &elasticity,
-                                     const NewtonParameters &parameters)
+  NonlinearStatics::NonlinearStatics(StaticSolid                    &solid,
+                                     const NewtonParameters         &parameters,
+                                     const std::vector<ForceTerm *> &others)
     : data(std::make_unique<Data>())
   {
-    data->own_search = std::make_unique<PlainSearch>(elasticity, parameters);
-    data->initialize(elasticity, *data->own_search);
+    data->initialize(solid, parameters, others);
   }
 
 
@@ -122,11 +134,9 @@ namespace NMM
                                      const NewtonParameters &parameters)
     : data(std::make_unique<Data>())
   {
-    data->own_system =
-      std::make_unique<ElasticSystem>(elasticity, /* is_linearized = */ false);
-    data->own_search =
-      std::make_unique<PlainSearch>(*data->own_system, parameters);
-    data->initialize(*data->own_system, *data->own_search);
+    data->own_solid =
+      std::make_unique<StaticSolid>(elasticity, /* is_linearized = */ false);
+    data->initialize(*data->own_solid, parameters, {});
   }
 
 
@@ -173,11 +183,11 @@ namespace NMM
     const bool is_extrapolated = degree > 0 && states.size() > 1;
     if (is_extrapolated)
       change -= states.back().solution;
-    elasticity->set_load_factor(step.load_factor);
+    system->set_load_factor(step.load_factor);
 
     StepFault fault =
       search->find(step, u, is_extrapolated ? &change : nullptr);
-    if (fault.reason.empty() && elasticity->largest_jump() > steps.max_jump)
+    if (fault.reason.empty() && system->solid().largest_jump() > steps.max_jump)
       fault.reason =
         "displacement conditions or ties are missed by a good part of an "
         "element";
@@ -191,11 +201,11 @@ namespace NMM
   void
   NonlinearStatics::continue_from(const double load_factor, const Vector &u)
   {
-    Data &d = *data;
-    Assert(d.elasticity->inelastic_terms() == nullptr,
-           dealii::ExcNotImplemented());
+    Data        &d     = *data;
+    StaticSolid &solid = d.system->solid();
+    Assert(solid.inelastic_terms() == nullptr, dealii::ExcNotImplemented());
     Vector admissible(u);
-    d.elasticity->elasticity().affine_constraints().distribute(admissible);
+    solid.elasticity().affine_constraints().distribute(admissible);
     Vector solution(d.states.back().solution);
     solution = admissible;
     d.states.clear();
@@ -216,8 +226,9 @@ namespace NMM
     {
       d.states.clear();
       d.has_equilibrium = false;
-      d.elasticity->forget_states();
-      d.states.push_back({0., d.elasticity->elasticity().initial_solution()});
+      d.system->begin_anew();
+      d.states.push_back(
+        {0., d.system->solid().elasticity().initial_solution()});
     }
 
     std::vector<LoadStep> report;
@@ -237,7 +248,7 @@ namespace NMM
         d.search->reject();
         return StepVerdict::rejected(fault);
       }
-      d.dissipated = d.elasticity->accept_step(u);
+      d.dissipated = d.system->commit(u).dissipated;
       d.search->accept(u);
       if (d.begins_out_of_balance && !d.has_equilibrium)
         d.states.clear();
@@ -245,7 +256,7 @@ namespace NMM
       d.states.push_back({step.load_factor, u});
       if (d.states.size() > steps.extrapolation_degree + 1)
         d.states.erase(d.states.begin());
-      d.elasticity->adapt_penalties(u);
+      d.system->solid().adapt_penalties(u);
       report.push_back(step);
       if (after_step)
         after_step(step, u);

@@ -16,7 +16,7 @@ namespace NMM
                            &initial.forces,
                            &with_loads.forces,
                            &with_supports.forces})
-      vector->reinit(unknowns.locally_owned, unknowns.communicator);
+      vector->reinit(layout().locally_owned, layout().communicator);
     if (elasticity.is_inelastic())
       inelastic = std::make_unique<InelasticTerms>(elasticity);
     set_fingerprint();
@@ -221,8 +221,8 @@ namespace NMM
     update(amplitudes);
     elasticity->tangent().vmult(forces, owned);
     // the diagonal entries of constrained and absent unknowns are arbitrary
-    unknowns.constraints->set_zero(forces);
-    for (const auto i : unknowns.absent_unknowns)
+    layout().constraints->set_zero(forces);
+    for (const auto i : layout().absent_unknowns)
       forces(i) = 0.;
     forces.compress(dealii::VectorOperation::insert);
     // the forces of initial stress are in both parts

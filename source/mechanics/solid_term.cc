@@ -48,8 +48,8 @@ namespace NMM
     : elasticity(&elasticity)
     , loading(std::move(loading_in))
     , mass(std::move(mass_in))
+    , unknowns(elasticity, mass.get())
   {
-    const CoverSystem       &covers  = elasticity.cover_system();
     const ElasticityProblem &problem = elasticity.elasticity_problem();
     check_releases(loading, problem);
     AssertThrow(mass != nullptr || !loading.base_acceleration,
@@ -57,24 +57,8 @@ namespace NMM
                            "the base acceleration",
                            "give the mass matrix"));
 
-    zero     = elasticity.initial_solution();
-    unknowns = {covers.communicator(),
-                covers.locally_owned_dofs(2),
-                covers.locally_relevant_dofs(2),
-                &elasticity.affine_constraints(),
-                &positions,
-                mass.get(),
-                covers.manifold_mesh().physical_mesh().n_blocks(),
-                {},
-                {}};
-    for (Vector *vector : {&positions, &last_loads})
-      vector->reinit(unknowns.locally_owned, unknowns.communicator);
-    for (const auto k : covers.locally_owned_covers())
-      for (unsigned int c = 0; c < 2; ++c)
-        positions(2 * k + c) = covers.node(k)[c];
-    positions.compress(dealii::VectorOperation::insert);
-    unknowns.absent_unknowns.set_size(positions.size());
-    set_blocks();
+    zero = elasticity.initial_solution();
+    last_loads.reinit(layout().locally_owned, layout().communicator);
     set_mass_of_translation();
     for (const Release &release : loading.releases)
       event_times.push_back(release.time);
@@ -95,22 +79,6 @@ namespace NMM
 
 
   void
-  SolidTerm::set_blocks()
-  {
-    const CoverSystem  &covers = elasticity->cover_system();
-    const ManifoldMesh &mesh   = covers.manifold_mesh();
-    if (unknowns.n_blocks < 2 ||
-        dealii::Utilities::MPI::n_mpi_processes(unknowns.communicator) > 1)
-      return;
-    std::vector<unsigned int> &block_of = unknowns.blocks_of_unknowns;
-    block_of.resize(2 * covers.n_covers());
-    for (unsigned int e = 0; e < mesh.n_elements(); ++e)
-      for (const unsigned int k : covers.covers(e))
-        block_of[2 * k] = block_of[2 * k + 1] = mesh.block(e);
-  }
-
-
-  void
   SolidTerm::set_active_blocks(const std::vector<bool> &is_active,
                                const std::vector<bool> &)
   {
@@ -125,10 +93,10 @@ namespace NMM
       return;
     for (unsigned int c = 0; c < 2; ++c)
     {
-      Vector translation(unknowns.locally_owned, unknowns.communicator);
+      Vector translation(layout().locally_owned, layout().communicator);
       for (const auto k : elasticity->cover_system().locally_owned_covers())
-        if (!unknowns.constraints->is_constrained(2 * k + c) &&
-            !unknowns.absent_unknowns.is_element(2 * k + c))
+        if (!layout().constraints->is_constrained(2 * k + c) &&
+            !layout().absent_unknowns.is_element(2 * k + c))
           translation(2 * k + c) = 1.;
       translation.compress(dealii::VectorOperation::insert);
       mass_of_translation[c].reinit(translation);
@@ -150,32 +118,9 @@ namespace NMM
     if (!is_departure)
       return;
     elasticity->set_absent_blocks(presence.absent_blocks);
-    set_absent_unknowns();
+    unknowns.set_absent_blocks(presence.absent_blocks);
     ++n_changes;
     set_mass_of_translation();
-  }
-
-
-  void
-  SolidTerm::set_absent_unknowns()
-  {
-    const CoverSystem  &covers = elasticity->cover_system();
-    const ManifoldMesh &mesh   = covers.manifold_mesh();
-    std::vector<dealii::types::global_dof_index> of_absent;
-    if (!presence.absent_blocks.empty())
-      for (unsigned int e = 0; e < mesh.n_elements(); ++e)
-        if (presence.absent_blocks[mesh.block(e)])
-          for (const unsigned int k : covers.covers(e))
-            if (covers.locally_owned_covers().is_element(k))
-              of_absent.insert(of_absent.end(), {2 * k, 2 * k + 1});
-    std::sort(of_absent.begin(), of_absent.end());
-    of_absent.erase(std::unique(of_absent.begin(), of_absent.end()),
-                    of_absent.end());
-    dealii::IndexSet &absent = unknowns.absent_unknowns;
-    absent.clear();
-    absent.set_size(positions.size());
-    absent.add_indices(of_absent.begin(), of_absent.end());
-    absent.compress();
   }
 
 
@@ -298,7 +243,7 @@ namespace NMM
   {
     const double t_0 = step.begin_time, t_1 = step.end_time;
     StepWork     work;
-    Vector       begin(unknowns.locally_owned, unknowns.communicator);
+    Vector       begin(layout().locally_owned, layout().communicator);
     Vector       change(begin), loads(begin);
     begin  = *step.begin;
     change = *step.end;

@@ -143,28 +143,24 @@ namespace NMM
 
     Mechanism
     find_mechanism(const ContactStatics       &statics,
-                   ElasticSystem              &system,
+                   StaticSolid                &solid,
                    Contact                    &contact,
                    const double                last,
                    const QuadratureCollection &quadrature)
     {
-      using Vector        = ContactStatics::Vector;
-      const auto assemble = [&](const double factor) {
-        system.set_load_factor(factor);
-        (void)system.assemble(statics.solution(), Tangent::none, nullptr);
-        return system.residual();
-      };
+      using Vector = ContactStatics::Vector;
       // The power is the work of the increment of loads from the last equilibrium to the end of the
       // search.
-      Vector change = assemble(statics.last_attempt().load_factor);
-      change.sadd(-1., 1., assemble(last));
+      Vector change = solid.residual_at(statics.solution(),
+                                        statics.last_attempt().load_factor);
+      change.sadd(-1., 1., solid.residual_at(statics.solution(), last));
       Vector motion(change), before(change);
       motion = statics.last_iterate();
       before = statics.solution();
       motion -= before;
       const auto field_of = [&](const Vector &u) {
-        return DisplacementField(system.elasticity().cover_system(),
-                                 system.elasticity().elasticity_problem(),
+        return DisplacementField(solid.elasticity().cover_system(),
+                                 solid.elasticity().elasticity_problem(),
                                  u);
       };
       const std::vector<BlockMotion> motions =
@@ -180,7 +176,7 @@ namespace NMM
       for (const double more : {1., 1.02, 1.05, 1.1})
       {
         const std::vector<BlockMotion> collapse =
-          find_collapse(system,
+          find_collapse(solid,
                         contact,
                         statics.solution(),
                         motions,

@@ -67,7 +67,7 @@ namespace NMM
 
 
     /**
-     * Finds the mechanism after @p statics, the loading of @p system, has failed. @p last is the
+     * Finds the mechanism after @p statics, the loading of @p solid, has failed. @p last is the
      * load factor of the last equilibrium [-]. If the search for an equilibrium has moved no block
      * far, the mechanism is that of rigid blocks, see find_collapse(): a block that topples is held
      * at its corner, so that the search need not run away. On return the last assembly is
@@ -75,7 +75,7 @@ namespace NMM
      */
     Mechanism
     find_mechanism(const ContactStatics       &statics,
-                   ElasticSystem              &system,
+                   StaticSolid                &solid,
                    Contact                    &contact,
                    double                      last,
                    const QuadratureCollection &quadrature);

@@ -33,7 +33,7 @@ namespace NMM
         failure = std::current_exception();
       }
       if (finite)
-        system = std::make_unique<ElasticSystem>(
+        solid = std::make_unique<StaticSolid>(
           *finite,
           /* is_linearized = */ !has_large_displacements());
 
@@ -101,7 +101,7 @@ namespace NMM
     {
       const SceneParameters &parameters = scene.parameters();
       // The stiffness of materials that yield depends on the direction, as that of contact.
-      NonlinearStatics statics(*system,
+      NonlinearStatics statics(*solid,
                                inelastic_terms() == nullptr
                                  ? show_iterations(parameters.newton.newton,
                                                    progress)
@@ -115,7 +115,7 @@ namespace NMM
         row.n_lost_iterations = step.n_lost_iterations;
         row.relative_residual = step.relative_residual;
         plastic_dissipation += problem.thickness * statics.dissipated();
-        row.strain_energy = problem.thickness * system->strain_energy();
+        row.strain_energy = problem.thickness * solid->strain_energy();
         add_step(row, solution);
       };
       try
@@ -135,7 +135,7 @@ namespace NMM
     NonlinearAnalysis::run_contact()
     {
       const SceneParameters &parameters = scene.parameters();
-      ContactStatics         statics(*system,
+      ContactStatics         statics(*solid,
                              contact->contact(),
                              contact_newton_parameters(scene, progress));
       double                 friction_work = 0.;
@@ -147,7 +147,7 @@ namespace NMM
         row.n_cuts            = step.n_cuts;
         row.n_lost_iterations = step.n_lost_iterations;
         row.relative_residual = step.relative_residual;
-        row.strain_energy = problem.thickness * system->strain_energy();
+        row.strain_energy = problem.thickness * solid->strain_energy();
         const std::string fault =
           contact->find_deep_penetration(step.contact.largest_penetration);
         AssertThrow(
@@ -167,7 +167,7 @@ namespace NMM
       {
         LoadSteps steps = parameters.load_steps.load_steps();
         // Small displacements are linear in the load as long as no contact state changes.
-        if (system->is_linearized())
+        if (solid->is_linearized())
           steps.extrapolation_degree = 1;
         statics.run(steps, after_step);
       }
@@ -188,7 +188,7 @@ namespace NMM
                                const ContactStatics   &statics)
     {
       const Mechanism   mechanism = find_mechanism(statics,
-                                                 *system,
+                                                 *solid,
                                                  contact->contact(),
                                                  reached_load_factor(),
                                                  *quadrature);
@@ -328,8 +328,8 @@ namespace NMM
       recovery = std::make_unique<StressRecovery>(*field, aggregation);
       // Assemble again, since the last assembly may be that of a step that failed.
       if (inelastic_terms() != nullptr)
-        (void)system->inelastic_terms()->assemble(last_solution,
-                                                  /* with_tangent = */ false);
+        (void)solid->inelastic_terms()->assemble(last_solution,
+                                                 /* with_tangent = */ false);
       evaluator = std::make_unique<FieldEvaluator>(
         *field,
         *recovery,
@@ -387,7 +387,7 @@ namespace NMM
     const InelasticTerms *
     NonlinearAnalysis::inelastic_terms() const
     {
-      return system ? system->inelastic_terms() : nullptr;
+      return solid ? solid->inelastic_terms() : nullptr;
     }
 
 

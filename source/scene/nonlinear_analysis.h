@@ -1,9 +1,9 @@
 #ifndef nmm_source_scene_nonlinear_analysis_h
 #define nmm_source_scene_nonlinear_analysis_h
 
-#include <nmm/mechanics/elastic_system.h>
 #include <nmm/mechanics/finite_elasticity.h>
 #include <nmm/mechanics/nonlinear_statics.h>
+#include <nmm/mechanics/static_solid.h>
 
 #include <exception>
 #include <memory>
@@ -66,7 +66,7 @@ namespace NMM
 
       /// The elasticity of large and, as linearized by `system`, of small displacements.
       std::unique_ptr<FiniteElasticity> finite;
-      std::unique_ptr<ElasticSystem>    system;
+      std::unique_ptr<StaticSolid>      solid;
       /// The failure to set up equations, since a block floats. It is not an input error, so
       /// solve() throws it.
       std::exception_ptr failure;

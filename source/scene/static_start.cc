@@ -3,10 +3,10 @@
 #include <nmm/contact/contact_statics.h>
 #include <nmm/contact/contact_term.h>
 #include <nmm/dynamics/relaxation.h>
-#include <nmm/mechanics/elastic_system.h>
 #include <nmm/mechanics/mass_matrix.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 #include <nmm/mechanics/solid_term.h>
+#include <nmm/mechanics/static_system.h>
 
 #include <algorithm>
 #include <iomanip>
@@ -55,7 +55,8 @@ namespace NMM
                   FiniteElasticity &elasticity,
                   StartReport      &report)
       {
-        ElasticSystem system(elasticity, /* is_linearized = */ true);
+        StaticSolid  solid(elasticity, /* is_linearized = */ true);
+        StaticSystem system(solid);
         system.set_load_factor(1.);
         Vector             u(input.covers.locally_owned_dofs(2),
                  input.covers.locally_relevant_dofs(2),
@@ -101,15 +102,15 @@ namespace NMM
         const LoadSteps steps = scene.parameters().load_steps.load_steps();
         if (is_small(scene) && !scene.parameters().is_nonlinear())
           return solve_small(input, elasticity, report);
-        ElasticSystem system(elasticity, is_small(scene));
-        const auto    keep_materials = [&]() {
-          if (const InelasticTerms *terms = system.inelastic_terms())
+        StaticSolid solid(elasticity, is_small(scene));
+        const auto  keep_materials = [&]() {
+          if (const InelasticTerms *terms = solid.inelastic_terms())
             report.material_state = terms->internal_state();
         };
         if (input.contact == nullptr)
         {
           NonlinearStatics statics(
-            system,
+            solid,
             show_iterations(scene.parameters().newton.newton, input.progress));
           statics.run(steps, [&](const LoadStep &step, const Vector &) {
             ++report.n_steps;
@@ -120,7 +121,7 @@ namespace NMM
           keep_materials();
           return owned_part(input, statics.solution());
         }
-        ContactStatics statics(system,
+        ContactStatics statics(solid,
                                input.contact->contact(),
                                contact_newton_parameters(scene,
                                                          input.progress));

@@ -69,11 +69,11 @@ namespace NMM
       {
         elasticity = std::make_unique<FiniteElasticity>(
           covers, quadrature, constraints, problem, /* may_float = */ true);
-        elastic_system =
-          std::make_unique<ElasticSystem>(*elasticity, is_linearized);
+        static_solid =
+          std::make_unique<StaticSolid>(*elasticity, is_linearized);
         contact = std::make_unique<Contact>(surface, constraints, parameters);
         statics =
-          std::make_unique<ContactStatics>(*elastic_system, *contact, newton);
+          std::make_unique<ContactStatics>(*static_solid, *contact, newton);
       }
 
       /// Values of a function of the reference position and the block, at the
@@ -169,7 +169,7 @@ namespace NMM
       QuadratureCollection              quadrature;
       ElasticityProblem                 problem;
       std::unique_ptr<FiniteElasticity> elasticity;
-      std::unique_ptr<ElasticSystem>    elastic_system;
+      std::unique_ptr<StaticSolid>      static_solid;
       std::unique_ptr<Contact>          contact;
       std::unique_ptr<ContactStatics>   statics;
 

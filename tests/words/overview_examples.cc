@@ -185,7 +185,7 @@ namespace
 
 
   [[maybe_unused]] void
-  solution(ElasticSystem &system, const Constraints &constraints, Vector &u)
+  solution(StaticSystem &system, const Constraints &constraints, Vector &u)
   {
     // clang-format off
     // Example of solution/newton_solver.h
@@ -236,7 +236,7 @@ namespace
   [[maybe_unused]] void
   contact(CoverSystem       &covers,
           const Constraints &constraints,
-          ElasticSystem     &system)
+          StaticSolid       &solid)
   {
     // clang-format off
     // Example of contact/contact.h
@@ -248,7 +248,7 @@ namespace
     ContactParameters parameters;
     parameters.law = std::make_shared<CoulombLaw>(law);
     Contact        contact(surface, constraints, parameters);
-    ContactStatics statics(system, contact);
+    ContactStatics statics(solid, contact);
     statics.run(LoadSteps::equal(10));
     // End
     // clang-format on

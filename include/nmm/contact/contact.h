@@ -273,7 +273,7 @@ namespace NMM
    * ContactParameters parameters;
    * parameters.law = std::make_shared<CoulombLaw>(law);
    * Contact        contact(surface, constraints, parameters);
-   * ContactStatics statics(system, contact);
+   * ContactStatics statics(solid, contact);
    * statics.run(LoadSteps::equal(10));
    * @endcode
    *
@@ -322,6 +322,10 @@ namespace NMM
      */
     void
     detect(const Vector &u, const std::vector<double> &least_reaches = {});
+
+    /// Whether an assembly is possible without a new detect().
+    bool
+    is_detected() const;
 
     /// Whether no rank has a candidate pair, so that assemble() would add nothing.
     bool

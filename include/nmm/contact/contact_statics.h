@@ -1,8 +1,7 @@
 #ifndef nmm_contact_contact_statics_h
 #define nmm_contact_contact_statics_h
 
-#include <nmm/contact/contact.h>
-#include <nmm/mechanics/elastic_system.h>
+#include <nmm/contact/contact_term.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 
 #include <functional>
@@ -11,49 +10,6 @@
 
 namespace NMM
 {
-  /**
-   * Elasticity and contact as one system of equations for Newton's method: forces and tangents
-   * are added, the tangents in the matrix of the contact. If there are no candidate pairs, the system
-   * is the elasticity alone.
-   *
-   * Lifetime: both must outlive this object.
-   */
-  class ContactSystem : public NonlinearSystem
-  {
-  public:
-    /// Combine two systems with the same unknowns.
-    ContactSystem(NonlinearSystem &elasticity, Contact &contact);
-
-    Deformation
-    assemble(const Vector &u,
-             Tangent       tangent,
-             const Vector *increment) override;
-
-    /// Subtract a share of @p forces from the residual (owned unknowns [N/m]): what still holds an
-    /// initial stress that is out of balance.
-    void
-    hold(const Vector &forces)
-    {
-      held_forces = forces;
-    }
-
-    /// Set that share, from 0 to 1 [-]; 0 initially.
-    void
-    set_held_share(const double share)
-    {
-      held_share = share;
-    }
-
-  private:
-    NonlinearSystem *elasticity;
-    Contact         *contact;
-    Vector           sum;
-    /// See hold(); empty if nothing is held.
-    Vector held_forces;
-    double held_share = 0.;
-  };
-
-
   /// A load step with contact that converged.
   struct ContactStep : public LoadStep
   {
@@ -63,7 +19,7 @@ namespace NMM
     ContactReport contact;
     /// Energy dissipated in the step by friction and breaking bonds [J/m].
     double dissipated = 0.;
-    /// Energy dissipated in the step by inelastic materials [J/m].
+    /// Energy dissipated in the step by all other terms, such as inelastic materials [J/m].
     double dissipated_by_material = 0.;
   };
 
@@ -78,10 +34,8 @@ namespace NMM
    * penetration are below their tolerances. All loops are bounded: a step converges, or it is
    * halved, with the reason.
    *
-   * The forces r_0 by which an initial stress is out of balance without loads, such as at the wall
-   * of an excavation, are released with the load factor lambda: the residual is
-   * @f$ r(u) - \langle 1 - \lambda\rangle_+ r_0 @f$, since friction depends on the way. So a state
-   * that is in balance with all loads stays at rest in all load steps.
+   * An initial stress of joints that is out of balance without loads is released with the load
+   * factor, see StaticSystem.
    *
    * Order of calls: the constructor, run(), then solution().
    * Lifetime: the elasticity and the contact must outlive this object.
@@ -92,11 +46,12 @@ namespace NMM
     /// Displacements, see NonlinearSystem.
     using Vector = NonlinearSystem::Vector;
 
-    /// Solver for @p elasticity with the forces of @p contact, both on the same covers.
-    ContactStatics(
-      ElasticSystem          &elasticity,
-      Contact                &contact,
-      const NewtonParameters &newton = default_newton_parameters());
+    /// Solver for @p solid with the forces of @p contact, both on the same covers, and of @p others,
+    /// such as springs.
+    ContactStatics(StaticSolid            &solid,
+                   Contact                &contact,
+                   const NewtonParameters &newton = default_newton_parameters(),
+                   const std::vector<ForceTerm *> &others = {});
     ~ContactStatics();
 
     /// Newton parameters for contact: up to 25 iterations, always with a line search, and no

@@ -1,7 +1,7 @@
 #ifndef nmm_mechanics_nonlinear_statics_h
 #define nmm_mechanics_nonlinear_statics_h
 
-#include <nmm/mechanics/elastic_system.h>
+#include <nmm/mechanics/static_system.h>
 #include <nmm/solution/load_stepping.h>
 
 #include <functional>
@@ -46,8 +46,8 @@ namespace NMM
 
 
   /**
-   * Static equilibrium under growing load, step by step (take_load_steps()). A solution that
-   * violates displacement conditions or ties by a considerable part of the size of an element
+   * Static equilibrium of a solid and further force terms under growing load, step by step
+   * (take_load_steps()). A solution that violates displacement conditions or ties by a considerable part of the size of an element
    * (LoadSteps::max_jump) is rejected. Between steps, material states are accepted and
    * penalties adapted, see FiniteElasticity::adapt_penalties().
    *
@@ -63,12 +63,13 @@ namespace NMM
     explicit NonlinearStatics(FiniteElasticity       &elasticity,
                               const NewtonParameters &parameters = {});
 
-    /// Statics of @p elasticity in small or finite kinematics, by Newton's method.
-    explicit NonlinearStatics(ElasticSystem          &elasticity,
-                              const NewtonParameters &parameters = {});
+    /// Statics of @p solid and @p others, such as springs, by Newton's method.
+    explicit NonlinearStatics(StaticSolid                    &solid,
+                              const NewtonParameters         &parameters = {},
+                              const std::vector<ForceTerm *> &others     = {});
 
-    /// Statics of @p elasticity, with equilibria found by @p search.
-    NonlinearStatics(ElasticSystem &elasticity, EquilibriumSearch &search);
+    /// Statics of @p system, with equilibria found by @p search.
+    NonlinearStatics(StaticSystem &system, EquilibriumSearch &search);
     ~NonlinearStatics();
 
     /// Continue from the displacements @p u of owned unknowns [m], which were an equilibrium at
@@ -109,7 +110,7 @@ namespace NMM
     const Vector &
     last_iterate() const;
 
-    /// Energy dissipated by inelastic materials in the last accepted step [J/m].
+    /// Energy dissipated by materials and all other terms in the last accepted step [J/m].
     double
     dissipated() const;
 

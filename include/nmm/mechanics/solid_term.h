@@ -5,6 +5,7 @@
 #include <nmm/mechanics/inelastic_terms.h>
 #include <nmm/mechanics/loading.h>
 #include <nmm/mechanics/mechanical_model.h>
+#include <nmm/mechanics/solid_layout.h>
 
 #include <functional>
 #include <memory>
@@ -26,7 +27,7 @@ namespace NMM
     const ModelLayout &
     layout() const
     {
-      return unknowns;
+      return unknowns.unknowns();
     }
 
     void
@@ -114,24 +115,16 @@ namespace NMM
     /// The undeformed state: locally relevant unknowns, zero except for inhomogeneities of the
     /// constraints [m].
     Vector zero;
-    /// See layout().
-    ModelLayout unknowns;
 
   private:
     void
-    set_blocks();
-
-    void
     set_mass_of_translation();
-
-    void
-    set_absent_unknowns();
 
     /// Number of releases passed so far, and of changes of absent blocks or of the tangent by
     /// damp_by_stiffness().
     unsigned int                  n_passed = 0, n_changes = 0;
     std::shared_ptr<const Matrix> mass;
-    Vector                        positions;
+    SolidLayout                   unknowns;
     /// The forces of a unit acceleration of the base [kg/m]; empty if the base does not move.
     Vector         mass_of_translation[2];
     LoadAmplitudes current;

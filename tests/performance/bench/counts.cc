@@ -146,11 +146,11 @@ namespace NMM
                                     *model.quadrature,
                                     model.constraints,
                                     model.problem);
-        ElasticSystem     system(elasticity, /* is_linearized = */ true);
+        StaticSolid       solid(elasticity, /* is_linearized = */ true);
         ContactParameters parameters;
         coulomb(parameters).normal_stiffness = 1e9;
         Contact        contact(*model.surface, model.constraints, parameters);
-        ContactStatics statics(system, contact);
+        ContactStatics statics(solid, contact);
         double         n_iterations = 0.;
         const unsigned long before  = n_allocations();
         for (const ContactStep &step : statics.run(LoadSteps::equal(1)))

@@ -17,26 +17,23 @@ namespace NMM
 
       /// Counts and times its assemblies: ContactStatics assembles the contact
       /// once with each of them.
-      class TimedElasticSystem : public ElasticSystem
+      class TimedSolid : public StaticSolid
       {
       public:
-        using ElasticSystem::ElasticSystem;
+        using StaticSolid::StaticSolid;
 
         Deformation
-        assemble(const Vector &u,
-                 const Tangent tangent,
-                 const Vector *increment) override
+        assemble(const Trial &trial, AssembledForces &sum) override
         {
-          if (tangent == Tangent::none)
+          if (trial.tangent == Tangent::none)
             ++n_residuals;
           else
             ++n_tangents;
           // only the first iteration of a solution knows of no increment
-          if (tangent == Tangent::robust && increment == nullptr)
+          if (trial.tangent == Tangent::robust && trial.increment == nullptr)
             ++n_solutions;
           dealii::Timer     timer;
-          const Deformation state =
-            ElasticSystem::assemble(u, tangent, increment);
+          const Deformation state = StaticSolid::assemble(trial, sum);
           seconds += timer.wall_time();
           return state;
         }
@@ -112,10 +109,10 @@ namespace NMM
       /// What one search and one assembly of the contact take at the solution, times
       /// how many there were.
       void
-      measure_contact(const TimedElasticSystem &system,
-                      const Vector             &u,
-                      Contact                  &contact,
-                      Row                      &row)
+      measure_contact(const TimedSolid &solid,
+                      const Vector     &u,
+                      Contact          &contact,
+                      Row              &row)
       {
         const auto seconds_of = [](const std::function<void()> &action) {
           double least = std::numeric_limits<double>::max();
@@ -128,11 +125,11 @@ namespace NMM
           return least;
         };
         row.search =
-          system.n_solutions * seconds_of([&]() { contact.detect(u); });
+          solid.n_solutions * seconds_of([&]() { contact.detect(u); });
         row.contact =
-          system.n_residuals *
+          solid.n_residuals *
             seconds_of([&]() { contact.assemble(u, false); }) +
-          system.n_tangents * seconds_of([&]() { contact.assemble(u, true); });
+          solid.n_tangents * seconds_of([&]() { contact.assemble(u, true); });
       }
 
 
@@ -180,13 +177,13 @@ namespace NMM
         if (is_augmented)
           contact_parameters.penetration_tolerance = 1e-4 * hertz.approach;
         contact_parameters.reach = 0.05 * R;
-        FiniteElasticity   elasticity(*model.covers,
+        FiniteElasticity elasticity(*model.covers,
                                     *model.quadrature,
                                     model.constraints,
                                     model.problem);
-        TimedElasticSystem system(elasticity, /* is_linearized = */ true);
+        TimedSolid       solid(elasticity, /* is_linearized = */ true);
         Contact contact(*model.surface, model.constraints, contact_parameters);
-        ContactStatics statics(system, contact);
+        ContactStatics statics(solid, contact);
         row.steps = row.iterations = 0.;
         for (const ContactStep &step : statics.run(LoadSteps::equal(1)))
         {
@@ -195,10 +192,10 @@ namespace NMM
         }
         const double solution = model.lap();
         row.total             = model.total();
-        row.assembly          = system.seconds;
+        row.assembly          = solid.seconds;
         row.nonzeros          = contact.tangent().n_nonzero_elements();
         compare(hertz, model, contact, row);
-        measure_contact(system, statics.solution(), contact, row);
+        measure_contact(solid, statics.solution(), contact, row);
         row.factorization =
           std::max(0., solution - row.assembly - row.search - row.contact);
         return row;

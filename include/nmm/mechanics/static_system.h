@@ -1,0 +1,75 @@
+#ifndef nmm_mechanics_static_system_h
+#define nmm_mechanics_static_system_h
+
+#include <nmm/mechanics/mechanical_model.h>
+#include <nmm/mechanics/static_solid.h>
+#include <nmm/solution/newton_solver.h>
+
+#include <vector>
+
+namespace NMM
+{
+  /**
+   * The static equations of a solid and further force terms, such as contact or springs, in the form
+   * that NewtonSolver solves. Their time is the load factor lambda.
+   *
+   * The forces r_0 by which an initial stress is out of balance without loads, such as at the wall of
+   * an excavation, are released with the load factor, since friction and yielding depend on the way:
+   * @f[ r(u) = \sum_\mathrm{terms} r_i(u) - \langle 1 - \lambda\rangle_+\,r_0. @f]
+   * So a state that is in balance with all loads stays at rest in all load steps. What has been
+   * released once stays so.
+   *
+   * Order of calls in a load step: set_load_factor(), assemble() as often as needed, commit() if the
+   * step is accepted. ForceTerm::begin_step() is not called.
+   *
+   * Lifetime: all terms must outlive this object.
+   */
+  class StaticSystem : public NonlinearSystem
+  {
+  public:
+    /// The forces of @p solid and of @p others. Holds the initial stress of inelastic materials.
+    /// @throws NumericalFailure if the initial stress of a material cannot be returned to its yield
+    /// surface.
+    explicit StaticSystem(StaticSolid                    &solid,
+                          const std::vector<ForceTerm *> &others = {});
+
+    /// The solid given to the constructor.
+    StaticSolid &
+    solid() const
+    {
+      return *solid_term;
+    }
+
+    /// Set the load factor of the next assemblies [-].
+    void
+    set_load_factor(double load_factor);
+
+    Deformation
+    assemble(const Vector &u,
+             Tangent       tangent,
+             const Vector *increment) override;
+
+    /// Let r_0 be the sum of all terms at @p u and the load factor 0. Returns whether it could be
+    /// assembled.
+    Deformation
+    hold_initial_forces(const Vector &u);
+
+    /// Accept the step to @p u, whose forces were the last ones assembled: terms keep their new
+    /// states. Returns what they did.
+    StepWork
+    commit(const Vector &u);
+
+    /// Begin again in the undeformed state: inelastic materials forget theirs, and r_0 is held again.
+    void
+    begin_anew();
+
+  private:
+    StaticSolid    *solid_term;
+    MechanicalModel model;
+    double          factor = 0., largest_factor = 0.;
+    /// r_0 [N/m]; empty if nothing is held.
+    Vector held_forces;
+  };
+} // namespace NMM
+
+#endif

@@ -205,4 +205,74 @@ namespace
         }
       }
   }
+
+  // A spring draws two squares on a rough floor towards each other: friction holds them, or they slide
+  // until the spring pulls no more than friction bears.
+  TEST(SpringsAndContact, AreInEquilibriumAtRest)
+  {
+    using namespace ContactBars;
+    for (const double friction : {0.5, 0.1})
+    {
+      Geometry geometry;
+      add_block(geometry, "left", {{0., 0.}, {1., 0.}, {1., 1.}, {0., 1.}});
+      add_block(geometry,
+                "right",
+                {{1.5, 0.}, {2.5, 0.}, {2.5, 1.}, {1.5, 1.}});
+      Bodies::Options options;
+      options.cell_size = 0.6;
+      options.obstacles = {obstacle("floor", {{6., 0.}, {-6., 0.}})};
+      Bodies bodies(std::move(geometry), options);
+      bodies.problem.materials = {
+        material("rock", rock_modulus, 0.2, rock_density)};
+      bodies.problem.gravity = Tensor<1, 2>({0., -standard_gravity});
+      ContactParameters parameters =
+        contact_parameters(0.1 * rock_modulus, 0.05);
+      coulomb(parameters).friction = friction;
+      bodies.start(parameters, /* is_linearized = */ false);
+      Spring spring;
+      spring.start          = {0.5, 0.5};
+      spring.end            = {2., 0.5};
+      spring.stiffness      = 5e4;
+      spring.natural_length = 1.4;
+      SpringTerm     springs(bodies.covers,
+                         bodies.static_solid->layout(),
+                         {spring});
+      ContactStatics statics(*bodies.static_solid,
+                             *bodies.contact,
+                             ContactStatics::default_newton_parameters(),
+                             {&springs});
+      statics.run(LoadSteps::equal(1));
+      const double weight    = rock_density * standard_gravity;
+      double       normal[2] = {0., 0.}, shear[2] = {0., 0.};
+      for (const ContactPoint &point : bodies.contact->points())
+        if (point.state != ContactState::open)
+        {
+          const unsigned int b = bodies.surface.edges()[point.edge].body;
+          normal[b] += point.weight * point.pressure;
+          shear[b] += point.weight * point.shear;
+        }
+      Vector owned(bodies.contact->residual());
+      owned             = statics.solution();
+      const double pull = springs.forces(owned)[0];
+      for (const unsigned int b : {0, 1})
+      {
+        // the tolerance of Newton's method
+        EXPECT_NEAR(normal[b] / weight, 1., 1e-7);
+        EXPECT_NEAR(std::abs(shear[b]) / pull, 1., 1e-7);
+      }
+      EXPECT_LT(shear[0] * shear[1], 0.);
+      if (friction == 0.1)
+        EXPECT_NEAR(pull / (friction * weight), 1., 1e-7);
+      else
+      {
+        // A pull T moves a square by T / K along the springs of its base, of the stiffness K on 1 m, and
+        // by 3 T / K by tilting it: (T / 2) / (K / 12) is the angle, and 1/2 the height. The squares
+        // are strained by some T / E, a tenth of that.
+        const double K = 0.1 * rock_modulus;
+        EXPECT_NEAR(pull / (spring.stiffness * 0.1),
+                    1. / (1. + 8. * spring.stiffness / K),
+                    5e-4);
+      }
+    }
+  }
 } // namespace

@@ -1,6 +1,7 @@
 // Springs between material points, and what a term that couples blocks may expect of others.
 
 #include <nmm/dynamics/relaxation.h>
+#include <nmm/mechanics/nonlinear_statics.h>
 #include <nmm/mechanics/spring_term.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -170,6 +171,64 @@ namespace
                     (0.5 * force * force / spring.stiffness),
                   1.,
                   1e-3);
+    }
+  }
+
+
+  // A loaded square hangs on three bars on another one, which is held: the equations of equilibrium
+  // determine their forces.
+  TEST(Springs, HoldABlockAtRestMPI)
+  {
+    const double              m = 2.;
+    const Tensor<1, 2>        g = vector(9.81, -4.);
+    const Point<2>            center(2.5, 0.5);
+    const std::vector<Spring> bars = {{{0.9, 0.9}, {2.1, 0.3}, 4e3, {}},
+                                      {{0.9, 0.1}, {2.1, 0.7}, 4e3, {}},
+                                      {{0.9, 0.5}, {2.9, 0.95}, 4e3, {}}};
+    for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite})
+    {
+      Body body                               = squares({1., 1.}, 1e7);
+      body.model->problem.gravity             = g;
+      body.model->problem.boundary_conditions = {
+        condition(BoundaryCondition::Type::displacement, "block 0")};
+      const bool is_small = kinematics == Kinematics::small;
+      if (is_small)
+        body.make_small();
+      else
+        body.make_finite();
+      StaticSolid solid(*body.elasticity, is_small);
+      SpringTerm  springs(body.model->covers, solid.layout(), bars, kinematics);
+      NonlinearStatics statics(solid, {}, {&springs});
+      statics.run(LoadSteps::equal(2));
+      Vector u(body.zero());
+      u                                = statics.solution();
+      const std::vector<double> forces = springs.forces(u);
+      const DisplacementField   field  = body.field(u);
+      const auto                moved  = [&](const Point<2> &x) {
+        Tensor<1, 2> d;
+        const auto [element, xi] = body.model->locate(x);
+        const auto [first, last] = body.model->covers.locally_owned_elements();
+        if (!is_small && element >= first && element < last)
+          d = field.displacement(element, xi);
+        return x + dealii::Utilities::MPI::sum(d, MPI_COMM_WORLD);
+      };
+      Tensor<1, 2>   resultant = m * g;
+      double         moment    = 0.;
+      const Point<2> middle    = moved(center);
+      for (unsigned int i = 0; i < bars.size(); ++i)
+      {
+        const Point<2> start = moved(bars[i].start), end = moved(bars[i].end);
+        const Tensor<1, 2> force =
+          forces[i] * (start - end) / (start - end).norm();
+        resultant += force;
+        moment += (end - middle)[0] * force[1] - (end - middle)[1] * force[0];
+      }
+      // small: that of the solution; finite: W / E, by which the mean position of the block is not
+      // that of its centre
+      const double tolerance = (is_small ? 1e-9 : 3e-6) * m * g.norm();
+      EXPECT_LT(resultant.norm(), tolerance);
+      EXPECT_LT(std::abs(moment), tolerance);
+      EXPECT_GT(std::abs(forces[2]), 0.1 * m * g.norm());
     }
   }
 

@@ -258,6 +258,10 @@ namespace NMM
    * @endcode
    * A term with stored energy adds it to AssembledForces::energy_of_conditions, and if
    * Trial::is_conserving its forces do the work of the change of that energy.
+   *
+   * The same terms act in motion (MechanicalModel, TimeIntegrator) and at rest: NonlinearStatics and
+   * ContactStatics take a list of them. At rest the time is the load factor, Trial::begin is null,
+   * and begin_step() is not called.
    */
   class ForceTerm
   {

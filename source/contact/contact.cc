@@ -466,22 +466,11 @@ namespace NMM
   std::vector<double>
   Contact::motions(const Vector &from, const Vector &to)
   {
-    Data                        &d     = *data;
-    const auto                  &edges = d.surface->edges();
-    std::vector<ContactPosition> positions(3 * edges.size());
+    Data &d = *data;
     d.move_to(to);
-    for (unsigned int i = 0; i < positions.size(); ++i)
-      positions[i] = d.surface->place(i / 3, 0.5 * (i % 3)).x;
+    const std::vector<ContactPosition> positions = d.search.positions();
     d.move_to(from);
-    std::vector<double> result(d.surface->n_bodies(), 0.);
-    for (unsigned int i = 0; i < positions.size(); ++i)
-    {
-      double &largest = result[edges[i / 3].body];
-      largest         = std::max(
-        largest,
-        d.surface->place(i / 3, 0.5 * (i % 3)).x.distance(positions[i]));
-    }
-    return result;
+    return d.search.distances(positions);
   }
 
 

@@ -64,10 +64,7 @@ namespace NMM
     if (!crossings->may_cross(motion + depth))
       return {};
 
-    std::vector<ContactPosition> end(3 * surface->edges().size());
-    for (unsigned int i = 0; i < end.size(); ++i)
-      end[i] = surface->place(i / 3, 0.5 * (i % 3)).x;
-    crossings->set_step(search.step_begin(), end);
+    crossings->set_step(search.step_begin(), search.positions());
     std::vector<EdgePair> near;
     bool                  is_within_reach = true;
     for (unsigned int body = 0; body < motions.size(); ++body)

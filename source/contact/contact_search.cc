@@ -196,10 +196,8 @@ namespace NMM
       constexpr double far = 4.;
 
       set_reaches(new_reaches);
-      begin_positions.resize(3 * surface->edges().size());
-      for (unsigned int i = 0; i < begin_positions.size(); ++i)
-        begin_positions[i] = surface->place(i / 3, 0.5 * (i % 3)).x;
-      bool is_kept = !broad_reaches.empty();
+      begin_positions = positions();
+      bool is_kept    = !broad_reaches.empty();
       if (is_kept)
       {
         const std::vector<double> ways = distances(known_positions);
@@ -230,14 +228,12 @@ namespace NMM
       std::vector<Entry> entries;
       boxes.reserve(n);
       entries.reserve(n);
-      known_positions.resize(3 * n);
+      known_positions = positions();
       for (unsigned int e = 0; e < n; ++e)
       {
         boxes.push_back(box_of(*surface, e, 0.));
         if (!surface->is_absent(e))
           entries.emplace_back(inflated(boxes.back(), broad_reach(e)), e);
-        for (unsigned int i = 0; i < 3; ++i)
-          known_positions[3 * e + i] = surface->place(e, 0.5 * i).x;
       }
       const bg::index::rtree<Entry, bg::index::rstar<16>> tree(entries);
 
@@ -317,17 +313,26 @@ namespace NMM
     }
 
 
+    std::vector<ContactPosition>
+    ContactSearch::positions() const
+    {
+      std::vector<ContactPosition> result(3 * surface->edges().size());
+      for (unsigned int i = 0; i < result.size(); ++i)
+        result[i] = surface->place(i / 3, 0.5 * (i % 3)).x;
+      return result;
+    }
+
+
     std::vector<double>
-    ContactSearch::distances(
-      const std::vector<ContactPosition> &positions) const
+    ContactSearch::distances(const std::vector<ContactPosition> &from) const
     {
       std::vector<double> result(surface->n_bodies(), 0.);
-      for (unsigned int i = 0; i < positions.size(); ++i)
+      for (unsigned int i = 0; i < from.size(); ++i)
       {
         double &largest = result[surface->edges()[i / 3].body];
-        largest         = std::max(
-          largest,
-          surface->place(i / 3, 0.5 * (i % 3)).x.distance(positions[i]));
+        largest =
+          std::max(largest,
+                   surface->place(i / 3, 0.5 * (i % 3)).x.distance(from[i]));
       }
       return result;
     }

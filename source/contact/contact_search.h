@@ -196,8 +196,16 @@ namespace NMM
       dealii::ArrayView<const unsigned int>
       masters(unsigned int position) const;
 
-      /// Largest distances [m] that an end or the middle of an edge of each body has moved since
-      /// update(). They are the same on all ranks.
+      /// Current positions of start, middle and end of all edges.
+      std::vector<ContactPosition>
+      positions() const;
+
+      /// The largest distances of these places of each body from earlier ones [m], the same on all
+      /// ranks.
+      std::vector<double>
+      distances(const std::vector<ContactPosition> &from) const;
+
+      /// Those from the positions at update().
       std::vector<double>
       motions() const
       {
@@ -398,11 +406,6 @@ namespace NMM
                      unsigned int                          body,
                      double                                largest_gap,
                      const AdmittedContact                &admitted) const;
-
-      /// The largest distances of the three places of an edge from earlier positions, for each body
-      /// [m].
-      std::vector<double>
-      distances(const std::vector<ContactPosition> &positions) const;
 
       /// Distance of a corner at @p x from the body [m], if it is behind a face but in front of
       /// another face that meets this one in a convex corner; negative if there is no such face.

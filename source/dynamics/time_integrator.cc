@@ -326,11 +326,26 @@ namespace NMM
   }
 
 
+  namespace
+  {
+    MechanicalModel &
+    with_masses(MechanicalModel &model)
+    {
+      AssertThrow(model.layout().mass != nullptr,
+                  InputError("A solid without masses cannot move",
+                             "the motion",
+                             "give the solid its mass matrix, see "
+                             "make_mass_matrix()"));
+      return model;
+    }
+  } // namespace
+
+
   TimeIntegrator::TimeIntegrator(MechanicalModel        &model,
                                  const TimeScheme       &scheme,
                                  const RayleighDamping  &damping,
                                  const NewtonParameters &newton)
-    : data(std::make_unique<Data>(model, scheme, damping, newton))
+    : data(std::make_unique<Data>(with_masses(model), scheme, damping, newton))
   {
     initialize();
   }

@@ -106,6 +106,29 @@ namespace
   };
 
 
+  // A solid at rest needs no masses; one that moves does.
+  TEST(Terms, OnlyMotionNeedsMasses)
+  {
+    Body body = box({0., 0.}, {1., 1.}, 0.7, material("rock", 1e4, 0.2));
+    body.model->problem.boundary_conditions = {
+      condition(BoundaryCondition::Type::displacement, "bottom")};
+    FiniteElasticity elasticity(body.model->covers,
+                                *body.model->quadrature,
+                                body.model->constraints,
+                                body.model->problem);
+    EXPECT_THROW(make_mass_matrix(elasticity, *body.model->quadrature),
+                 InputError);
+    FiniteSolid     solid(elasticity);
+    MechanicalModel model(solid.layout(), {&solid});
+    EXPECT_EQ(model.assemble(Trial::at(elasticity.initial_solution(), 0.)),
+              Deformation::admissible);
+    EXPECT_THROW(TimeIntegrator(model, TimeScheme::newmark()), InputError);
+    Loading shaken;
+    shaken.base_acceleration = [](const double) { return Tensor<1, 2>(); };
+    EXPECT_THROW(FiniteSolid(elasticity, shaken), InputError);
+  }
+
+
   // 1 + 2 m/s^2 for 0.5 s: both terms act and work in linear and in Newton's steps, of both schemes,
   // and their account closes.
   TEST(Terms, AddUpMPI)

@@ -132,7 +132,13 @@ namespace
       if (testing::Test::HasFailure())
         break;
     }
-    EXPECT_GT(n_refused, n / 4);
+    // About half of all forgeries are refused. Of 50, a quarter or less would be by a chance of 1e-4;
+    // of five, one or none is in a sixth of all runs.
+    constexpr unsigned int enough = 50;
+    if (n >= enough)
+    {
+      EXPECT_GT(n_refused, n / 4);
+    }
   }
 
 

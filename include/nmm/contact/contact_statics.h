@@ -38,7 +38,7 @@ namespace NMM
    * factor, see StaticSystem.
    *
    * Order of calls: the constructor, run(), then solution().
-   * Lifetime: the elasticity and the contact must outlive this object.
+   * Lifetime: the solid, the contact and all other terms must outlive this object.
    */
   class ContactStatics
   {

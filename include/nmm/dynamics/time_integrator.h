@@ -238,7 +238,8 @@ namespace NMM
     default_newton_parameters();
 
     /// The state is that of initialize() without arguments.
-    /// @throws InputError for coefficients of the scheme or of the damping that are out of range.
+    /// @throws InputError for coefficients of the scheme or of the damping that are out of range, and for
+    /// a model without masses.
     TimeIntegrator(
       MechanicalModel        &model,
       const TimeScheme       &scheme,

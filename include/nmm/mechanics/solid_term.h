@@ -14,8 +14,9 @@
 namespace NMM
 {
   /**
-   * The force term of a solid: the common part of `small` and `finite` kinematics, with loads as
-   * functions of time, releases, and the inertia forces of a moving base.
+   * The force term of a solid that moves: the common part of `small` and `finite` kinematics, with
+   * loads as functions of time, releases, and the inertia forces of a moving base. The term of a
+   * solid at rest is StaticSolid.
    *
    * Lifetime: the elasticity must outlive this object, and from then on only this object may set
    * its load amplitudes.
@@ -47,8 +48,8 @@ namespace NMM
 
   protected:
     /**
-     * @p mass is the matrix of ModelLayout::mass, see make_mass_matrix(); null for a solid at rest,
-     * whose base cannot move.
+     * @p mass is the matrix of ModelLayout::mass, see make_mass_matrix(). TimeIntegrator needs it,
+     * and so does a base that moves.
      * @throws InputError for the release of a load, or of a condition or fixed point that does not
      * exist, and for a base acceleration without mass.
      */
@@ -136,7 +137,7 @@ namespace NMM
   };
 
 
-  /// The dynamic model in total Lagrangian kinematics, see FiniteElasticity. In conserving steps
+  /// The term of a moving solid in total Lagrangian kinematics, see FiniteElasticity. In conserving steps
   /// stiffness-proportional damping acts on the rate of the Green-Lagrange strain, and hence
   /// neither on rigid rotation nor on supports and ties.
   class FiniteSolid : public SolidTerm
@@ -189,7 +190,7 @@ namespace NMM
 
 
   /**
-   * The dynamic model of small displacements: FiniteElasticity linearized at u = 0,
+   * The term of a moving solid with small displacements: FiniteElasticity linearized at u = 0,
    * @f[ r(u,t) = K u - f(t), @f]
    * with the geometric stiffness of initial stresses. Follower pressure keeps its
    * direction. K contains the displacement conditions, and f their prescribed displacements. The

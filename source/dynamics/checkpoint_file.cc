@@ -26,7 +26,7 @@ namespace NMM
       struct Head
       {
         char          magic[8] = {'N', 'M', 'M', 'S', 'T', 'A', 'T', 'E'};
-        std::uint32_t version  = 13;
+        std::uint32_t version  = 14;
         /// Keeps the next member where it is on all machines.
         std::uint32_t unused = 0;
         /// Number of bytes after the head.

@@ -143,14 +143,6 @@ namespace NMM
       void
       search(const std::vector<double> &reaches);
 
-      /// The distance within which all faces of two bodies are candidates [m].
-      double
-      reach_of(unsigned int edge, unsigned int other) const
-      {
-        return reaches[surface->edges()[edge].body] +
-               reaches[surface->edges()[other].body];
-      }
-
       /// Slave edges of this rank that have masters: first those that touch along their length,
       /// then those with a corner at one end, ascending in both parts. Corners of obstacles belong
       /// to the first rank.
@@ -389,6 +381,14 @@ namespace NMM
 
       bool
       may_touch(unsigned int edge, unsigned int other) const;
+
+      /// The distance within which faces of the bodies of two edges are candidates [m].
+      double
+      reach_of(unsigned int edge, unsigned int other) const
+      {
+        return reaches[surface->edges()[edge].body] +
+               reaches[surface->edges()[other].body];
+      }
 
       void
       set_reaches(const std::vector<double> &given);

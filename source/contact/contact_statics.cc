@@ -298,7 +298,7 @@ namespace NMM
       d.contact->assemble(solution(), false);
       d.contact->accept();
       if (!d.contact->parameters().initial_stress.empty())
-        (void)d.system.hold_initial_forces(solution());
+        d.system.hold_initial_forces(solution());
     }
     std::vector<ContactStep> result;
     d.statics.run(steps, [&](const LoadStep &step, const Vector &u) {

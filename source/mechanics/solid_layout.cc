@@ -1,19 +1,21 @@
 #include <nmm/mechanics/solid_layout.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace NMM
 {
-  SolidLayout::SolidLayout(const FiniteElasticity &elasticity,
-                           const dealii::TrilinosWrappers::SparseMatrix *mass)
+  SolidLayout::SolidLayout(const FiniteElasticity                  &elasticity,
+                           std::shared_ptr<const ForceTerm::Matrix> mass_in)
     : covers(&elasticity.cover_system())
+    , mass(std::move(mass_in))
     , positions(covers->locally_owned_dofs(2), covers->communicator())
     , layout({covers->communicator(),
               covers->locally_owned_dofs(2),
               covers->locally_relevant_dofs(2),
               &elasticity.affine_constraints(),
               &positions,
-              mass,
+              mass.get(),
               covers->manifold_mesh().physical_mesh().n_blocks(),
               {},
               {}})

@@ -44,15 +44,14 @@ namespace NMM
 
   SolidTerm::SolidTerm(FiniteElasticity             &elasticity,
                        Loading                       loading_in,
-                       std::shared_ptr<const Matrix> mass_in)
+                       std::shared_ptr<const Matrix> mass)
     : elasticity(&elasticity)
     , loading(std::move(loading_in))
-    , mass(std::move(mass_in))
-    , unknowns(elasticity, mass.get())
+    , unknowns(elasticity, std::move(mass))
   {
     const ElasticityProblem &problem = elasticity.elasticity_problem();
     check_releases(loading, problem);
-    AssertThrow(mass != nullptr || !loading.base_acceleration,
+    AssertThrow(layout().mass != nullptr || !loading.base_acceleration,
                 InputError("The base of a solid without masses moves",
                            "the base acceleration",
                            "give the mass matrix"));
@@ -100,7 +99,7 @@ namespace NMM
           translation(2 * k + c) = 1.;
       translation.compress(dealii::VectorOperation::insert);
       mass_of_translation[c].reinit(translation);
-      mass->vmult(mass_of_translation[c], translation);
+      layout().mass->vmult(mass_of_translation[c], translation);
     }
   }
 

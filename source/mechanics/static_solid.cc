@@ -10,7 +10,7 @@ namespace NMM
                            const bool        is_linearized)
     : elastic(&elasticity)
     , linearized(is_linearized)
-    , unknowns(elasticity, /* mass = */ nullptr)
+    , unknowns(elasticity)
     , load_at(std::numeric_limits<double>::quiet_NaN())
   {
     const CoverSystem &covers = elasticity.cover_system();
@@ -123,7 +123,8 @@ namespace NMM
     sum                         = elastic->residual();
     forces.residual             = &sum;
     forces.scale                = elastic->force_scale();
-    forces.strain_energy        = elastic->energies().strain;
+    energy                      = elastic->energies().strain;
+    forces.strain_energy        = energy;
     forces.energy_of_conditions = elastic->energies().conditions;
     if (trial.tangent != Tangent::none)
       forces.tangent = &elastic->tangent();
@@ -184,6 +185,6 @@ namespace NMM
   double
   StaticSolid::strain_energy() const
   {
-    return linearized ? energy : elastic->energies().strain;
+    return energy;
   }
 } // namespace NMM

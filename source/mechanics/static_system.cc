@@ -68,13 +68,15 @@ namespace NMM
   }
 
 
-  Deformation
+  void
   StaticSystem::hold_initial_forces(const Vector &u)
   {
-    const Deformation state = model.assemble(Trial::at(u, 0.));
-    if (state == Deformation::admissible)
-      held_forces = *model.forces().residual;
-    return state;
+    AssertThrow(model.assemble(Trial::at(u, 0.)) == Deformation::admissible,
+                NumericalFailure("Forces cannot be computed",
+                                 "the undeformed state",
+                                 "check initial stresses and the positions of "
+                                 "supports"));
+    held_forces = *model.forces().residual;
   }
 
 

@@ -73,6 +73,29 @@ namespace
   };
 
 
+  // How far a block may move in a step is a matter of its own reach, not of that of the fastest one.
+  TEST_F(TwoAndOne, EachBlockHasAReach)
+  {
+    Contact   &contact = *bodies->contact;
+    const auto faults  = [&](const std::vector<double> &reaches,
+                            const double               lift) {
+      contact.detect(sunk_by(0.), reaches);
+      return contact.find_fault(sunk_by(-lift)).reason;
+    };
+    const double        h = 1.5 * reach;
+    std::vector<double> fast(bodies->surface.n_bodies(), 0.), other(fast);
+    fast[above]            = h;
+    other[(above + 1) % 3] = h;
+    EXPECT_EQ(faults({}, 0.5 * reach), "");
+    EXPECT_NE(faults({}, h).find("moved further"), std::string::npos);
+    EXPECT_EQ(faults(fast, h), "");
+    EXPECT_NE(faults(other, h).find("moved further"), std::string::npos);
+    const auto motions = contact.motions(sunk_by(0.), sunk_by(-h));
+    EXPECT_EQ(motions[(above + 1) % 3], 0.);
+    EXPECT_GE(motions[above], h);
+  }
+
+
   // Blocks that cannot touch in the step are not coupled; those that do nevertheless are
   // from then on, with the tangent of the forces; the next step begins anew.
   TEST_F(TwoAndOne, PatternFollowsWhatTouches)

@@ -153,6 +153,53 @@ TEST(Inelastic, ColumnBetweenWallsMPI)
 }
 
 
+/// An initial stress that nothing balances is released in proportion to the load factor. What has been
+/// released stays so, whether loads become smaller or larger than 1. Elastic in effect, by a cohesion
+/// that is far above the stress.
+TEST(Inelastic, InitialStressIsReleasedOnceMPI)
+{
+  Geometry geometry;
+  add_box(geometry, {0., 0.}, {1., 2.});
+  Model model(std::move(geometry),
+              mesh_parameters(0.45, {}, 9.),
+              2,
+              Stabilization::aggregation,
+              MPI_COMM_WORLD);
+  model.problem.plane_state      = PlaneState::plane_strain;
+  model.problem.materials        = {material("rock", 1000., 0.1, 2.)};
+  model.problem.materials[0].law = mohr_coulomb(30., 100., 0.);
+  model.problem.materials[0].initial_stress[1][1] = -1.;
+  for (const char *side : {"bottom", "left", "right"})
+    model.problem.boundary_conditions.push_back(
+      condition(normal_displacement, side));
+  const auto       elasticity = finite_elasticity(model);
+  StaticSolid      solid(*elasticity, /* is_linearized = */ true);
+  NonlinearStatics statics(solid, newton_parameters());
+  LoadSteps        steps;
+  steps.load_factors       = {0.5, 1., 0.5, 2.};
+  steps.leaves_out_reached = false;
+  std::vector<Vector> u;
+  statics.run(steps,
+              [&](const LoadStep &, const Vector &now) { u.push_back(now); });
+  ASSERT_EQ(u.size(), 4U);
+  // u_y = y / E' with E' = E (1 - nu) / (1 + nu) / (1 - 2 nu), which expands the column again
+  const Vector exact = interpolate(model, [](const Point<2> &x) {
+    return Tensor<1, 2>({0., x[1] / (1000. * 0.9 / (1.1 * 0.8))});
+  });
+  // the tolerance of Newton's method
+  EXPECT_LT(relative_difference(u[1], exact), 1e-8);
+  EXPECT_LT(relative_difference(u[2], exact), 1e-8);
+  EXPECT_LT(relative_difference(u[3], exact), 1e-8);
+  Vector twice(exact);
+  twice = u[0];
+  Vector owned(model.covers.locally_owned_dofs(2), MPI_COMM_WORLD);
+  owned = u[0];
+  owned *= 2.;
+  twice = owned;
+  EXPECT_LT(relative_difference(twice, exact), 1e-8);
+}
+
+
 /// The derivative of all forces against central differences, ties and conditions included.
 TEST(Inelastic, TangentAgainstDifferences)
 {

@@ -1,3 +1,6 @@
+#include <nmm/geometry/physical_mesh.h>
+#include <nmm/scene/scene_parameters_dynamics.h>
+
 #include <gtest/gtest.h>
 #include <limits>
 #include <scene/mechanism.h>
@@ -75,5 +78,40 @@ namespace
            nan,
            false,
            "The iteration produced displacements that are not finite");
+  }
+
+
+  // Twice the mean length of a block, the diagonal over the root of the number of blocks, and at least a
+  // tenth of the diagonal; steps are bounded by a tenth of the diagonal or of that distance.
+  TEST(Mechanism, RelaxationsEndWhereBlocksHaveLeftTheirPlace)
+  {
+    for (const auto &[n, ways] : std::vector<std::pair<unsigned int, double>>{
+           {1, 2.}, {2, 1.}, {20, 0.1}, {25, 0.1}})
+    {
+      Geometry geometry;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+        {
+          const double x = 3. * i / n, y = 4. * j / n, a = 2.9 / n, b = 3.9 / n;
+          const bool   is_last_x = i + 1 == n, is_last_y = j + 1 == n;
+          const double right = is_last_x ? 3. : x + a,
+                       top   = is_last_y ? 4. : y + b;
+          geometry.add_polygon({{x, y}, {right, y}, {right, top}, {x, top}},
+                               "block");
+        }
+      const PhysicalMesh mesh(std::move(geometry));
+      ASSERT_EQ(mesh.n_blocks(), n * n);
+      RelaxationSectionParameters parameters;
+      const RelaxationParameters  by_default = parameters.bounded(mesh);
+      const double                diagonal   = 5.;
+      EXPECT_NEAR(by_default.max_displacement, ways * diagonal, 1e-12);
+      EXPECT_NEAR(by_default.max_step_displacement,
+                  0.1 * std::min(ways, 1.) * diagonal,
+                  1e-12);
+      parameters.relaxation.max_displacement = 0.3;
+      const RelaxationParameters given       = parameters.bounded(mesh);
+      EXPECT_EQ(given.max_displacement, 0.3);
+      EXPECT_EQ(given.max_step_displacement, 0.);
+    }
   }
 } // namespace

@@ -47,8 +47,8 @@ namespace NMM
    * remain linear.
    *
    * Energies: the energy of the contacts' penalty springs is one of conditions, friction
-   * dissipates, and moving obstacles are supports. With TimeScheme::energy_momentum() contact
-   * forces conserve energy, too (see ContactTimeStep::assemble()). With other schemes, points that
+   * dissipates, and moving obstacles are supports. Conserving forces
+   * (Trial::is_conserving) conserve the energy of contact, too (see ContactTimeStep::assemble()). With other schemes, points that
    * come into contact gain or lose energy, as usual with penalties.
    *
    * Lifetime: layout and contact must outlive this object. Multipliers of the contact

@@ -4,6 +4,7 @@
 #include <nmm/mechanics/finite_elasticity.h>
 #include <nmm/mechanics/force_term.h>
 
+#include <memory>
 #include <vector>
 
 namespace NMM
@@ -12,9 +13,10 @@ namespace NMM
   class SolidLayout
   {
   public:
-    /// @p mass is ModelLayout::mass.
-    SolidLayout(const FiniteElasticity                       &elasticity,
-                const dealii::TrilinosWrappers::SparseMatrix *mass);
+    /// @p mass is ModelLayout::mass; null for a solid at rest.
+    explicit SolidLayout(
+      const FiniteElasticity                  &elasticity,
+      std::shared_ptr<const ForceTerm::Matrix> mass = nullptr);
     SolidLayout(const SolidLayout &) = delete;
     SolidLayout &
     operator=(const SolidLayout &) = delete;
@@ -35,9 +37,10 @@ namespace NMM
     void
     set_blocks();
 
-    const CoverSystem                    *covers;
-    dealii::TrilinosWrappers::MPI::Vector positions;
-    ModelLayout                           layout;
+    const CoverSystem                       *covers;
+    std::shared_ptr<const ForceTerm::Matrix> mass;
+    ForceTerm::Vector                        positions;
+    ModelLayout                              layout;
   };
 } // namespace NMM
 

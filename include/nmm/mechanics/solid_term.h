@@ -123,9 +123,8 @@ namespace NMM
 
     /// Number of releases passed so far, and of changes of absent blocks or of the tangent by
     /// damp_by_stiffness().
-    unsigned int                  n_passed = 0, n_changes = 0;
-    std::shared_ptr<const Matrix> mass;
-    SolidLayout                   unknowns;
+    unsigned int n_passed = 0, n_changes = 0;
+    SolidLayout  unknowns;
     /// The forces of a unit acceleration of the base [kg/m]; empty if the base does not move.
     Vector         mass_of_translation[2];
     LoadAmplitudes current;

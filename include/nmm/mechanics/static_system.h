@@ -49,9 +49,9 @@ namespace NMM
              Tangent       tangent,
              const Vector *increment) override;
 
-    /// Let r_0 be the sum of all terms at @p u and the load factor 0. Returns whether it could be
-    /// assembled.
-    Deformation
+    /// Let r_0 be the sum of all terms at the undeformed state @p u and the load factor 0.
+    /// @throws NumericalFailure if it cannot be assembled.
+    void
     hold_initial_forces(const Vector &u);
 
     /// Accept the step to @p u, whose forces were the last ones assembled: terms keep their new

@@ -255,7 +255,7 @@ namespace StepNMM3
     AffineConstraints<double>                  constraints;
     std::unique_ptr<NMM::QuadratureCollection> quadrature;
     std::unique_ptr<NMM::FiniteElasticity>     elasticity;
-    std::unique_ptr<NMM::StaticSolid>          solid;
+    std::unique_ptr<NMM::SolidTerm>            solid;
     std::unique_ptr<NMM::Contact>              contact;
     std::unique_ptr<NMM::ContactStatics>       statics;
   };
@@ -289,7 +289,9 @@ namespace StepNMM3
                                                          *quadrature,
                                                          constraints,
                                                          problem);
-    solid = std::make_unique<NMM::StaticSolid>(*elasticity, setup.is_linear);
+    solid      = NMM::make_solid_at_rest(*elasticity,
+                                    setup.is_linear ? NMM::Kinematics::small
+                                                         : NMM::Kinematics::finite);
 
     // Of two bodies the softer one carries the contact points: the stiff one's
     // boundary bends less from edge to edge.

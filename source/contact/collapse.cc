@@ -141,7 +141,7 @@ namespace NMM
       std::vector<Rigid>
       forces_on_blocks(const CoverSystem              &covers,
                        const std::vector<BlockMotion> &blocks,
-                       const StaticSolid::Vector      &forces)
+                       const SolidTerm::Vector        &forces)
       {
         const ManifoldMesh       &mesh = covers.manifold_mesh();
         std::vector<unsigned int> cover_to_block(covers.n_covers(), 0);
@@ -291,9 +291,9 @@ namespace NMM
 
 
     std::vector<BlockMotion>
-    find_collapse(StaticSolid                    &solid,
+    find_collapse(SolidTerm                      &solid,
                   Contact                        &contact,
-                  const StaticSolid::Vector      &u,
+                  const SolidTerm::Vector        &u,
                   const std::vector<BlockMotion> &blocks,
                   const double                    factor)
     {
@@ -301,7 +301,7 @@ namespace NMM
       if (dealii::Utilities::MPI::n_mpi_processes(covers.communicator()) > 1)
         return {};
       // The loads are proportional to the load factor.
-      StaticSolid::Vector loads = solid.residual_at(u, 0.);
+      SolidTerm::Vector loads = solid.residual_at(u, 0.);
       loads.add(-1., solid.residual_at(u, factor));
       contact.detect(u);
       if (!contact.is_idle())

@@ -3,7 +3,7 @@
 
 #include <nmm/contact/contact.h>
 #include <nmm/mechanics/block_motion.h>
-#include <nmm/mechanics/static_solid.h>
+#include <nmm/mechanics/solid_term.h>
 
 #include <array>
 #include <vector>
@@ -71,9 +71,9 @@ namespace NMM
      * contact is left at @p u.
      */
     std::vector<BlockMotion>
-    find_collapse(StaticSolid                    &solid,
+    find_collapse(SolidTerm                      &solid,
                   Contact                        &contact,
-                  const StaticSolid::Vector      &u,
+                  const SolidTerm::Vector        &u,
                   const std::vector<BlockMotion> &blocks,
                   double                          factor);
   } // namespace internal

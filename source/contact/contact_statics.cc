@@ -179,7 +179,7 @@ namespace NMM
         const bool is_settled =
           (i > 0 && step.newton.iterations.front().relative_residual <=
                       100. * parameters.residual_tolerance) ||
-          (system->solid().is_linearized() &&
+          (system->solid().kinematics() == Kinematics::small &&
            find_largest_motion(detected, u) <=
              small_motion * contact->parameters().reach);
         if (!is_augmented)
@@ -211,7 +211,7 @@ namespace NMM
 
   struct ContactStatics::Data
   {
-    Data(StaticSolid             &solid,
+    Data(SolidTerm               &solid,
          Contact                 &contact,
          const NewtonParameters  &newton,
          std::vector<ForceTerm *> others)
@@ -251,7 +251,7 @@ namespace NMM
   }
 
 
-  ContactStatics::ContactStatics(StaticSolid                    &solid,
+  ContactStatics::ContactStatics(SolidTerm                      &solid,
                                  Contact                        &contact,
                                  const NewtonParameters         &newton,
                                  const std::vector<ForceTerm *> &others)
@@ -282,7 +282,8 @@ namespace NMM
   {
     steps.check();
     Data &d = *data;
-    d.contact->freeze_geometry(d.system.solid().is_linearized());
+    d.contact->freeze_geometry(d.system.solid().kinematics() ==
+                               Kinematics::small);
     const std::shared_ptr<void> thaw(nullptr, [&d](void *) {
       d.contact->freeze_geometry(false);
     });

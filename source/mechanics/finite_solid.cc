@@ -1,3 +1,4 @@
+#include <nmm/base/exceptions.h>
 #include <nmm/mechanics/solid_term.h>
 
 #include <algorithm>
@@ -12,6 +13,11 @@ namespace NMM
     : SolidTerm(elasticity, std::move(loading), std::move(mass))
     , has_follower(!elasticity.tangent_is_symmetric())
   {
+    AssertThrow(!elasticity.is_inelastic(),
+                InputError("a material is inelastic, which is possible with "
+                           "small displacements only",
+                           "the equations of large displacements",
+                           "choose another law, or small kinematics"));
     set_fingerprint();
   }
 
@@ -31,7 +37,7 @@ namespace NMM
   FiniteSolid::properties() const
   {
     return {/* is_linear = */ false,
-            elasticity->tangent_is_symmetric(),
+            elastic->tangent_is_symmetric(),
             /* is_symmetric_between = */ false};
   }
 
@@ -42,22 +48,19 @@ namespace NMM
     if (!trial.is_conserving)
     {
       set_amplitudes(amplitudes_at(trial.end_time));
-      return elasticity->assemble(*trial.end,
-                                  1.,
-                                  trial.tangent,
-                                  trial.increment);
+      return elastic->assemble(*trial.end, 1., trial.tangent, trial.increment);
     }
     const double         t_0 = trial.begin_time, t_1 = trial.end_time;
     const LoadAmplitudes first = amplitudes_at(t_0), last = amplitudes_at(t_1);
     set_amplitudes(amplitudes_at(0.5 * (t_0 + t_1)));
     const Deformation state =
-      elasticity->assemble_between(*trial.begin,
-                                   *trial.end,
-                                   trial.tangent,
-                                   &first,
-                                   &last,
-                                   damping > 0. ? damping / (t_1 - t_0) : 0.);
-    dissipated_between = elasticity->energies().dissipated;
+      elastic->assemble_between(*trial.begin,
+                                *trial.end,
+                                trial.tangent,
+                                &first,
+                                &last,
+                                damping > 0. ? damping / (t_1 - t_0) : 0.);
+    dissipated_between = elastic->energies().dissipated;
     return state;
   }
 
@@ -67,18 +70,18 @@ namespace NMM
   {
     if (assemble_elasticity(trial) != Deformation::admissible)
       return Deformation::inverted;
-    sum = elasticity->residual();
+    sum = elastic->residual();
     add_base_force(trial.is_conserving
                      ? 0.5 * (trial.begin_time + trial.end_time)
                      : trial.end_time,
                    1.,
                    sum);
     forces.residual             = &sum;
-    forces.scale                = elasticity->force_scale();
-    forces.strain_energy        = elasticity->energies().strain;
-    forces.energy_of_conditions = elasticity->energies().conditions;
+    forces.scale                = elastic->force_scale();
+    forces.strain_energy        = elastic->energies().strain;
+    forces.energy_of_conditions = elastic->energies().conditions;
     if (trial.tangent != Tangent::none)
-      forces.tangent = &elasticity->tangent();
+      forces.tangent = &elastic->tangent();
     return Deformation::admissible;
   }
 
@@ -87,7 +90,7 @@ namespace NMM
   FiniteSolid::find_fault(const Vector &)
   {
     StepFault fault;
-    if (elasticity->largest_jump() > FiniteElasticity::largest_good_jump)
+    if (elastic->largest_jump() > FiniteElasticity::largest_good_jump)
     {
       fault.reason =
         "displacement conditions or ties that are missed by a "
@@ -121,13 +124,11 @@ namespace NMM
       const Vector &at = has_follower ? u : zero;
       known_forces.reinit(layout().locally_owned, layout().communicator);
       set_amplitudes(amplitudes_at(t, /* with_loads = */ false));
-      if (elasticity->assemble(at, 1., Tangent::none) ==
-          Deformation::admissible)
-        known_forces = elasticity->residual();
+      if (elastic->assemble(at, 1., Tangent::none) == Deformation::admissible)
+        known_forces = elastic->residual();
       set_amplitudes(amplitudes_at(t));
-      if (elasticity->assemble(at, 1., Tangent::none) ==
-          Deformation::admissible)
-        known_forces -= elasticity->residual();
+      if (elastic->assemble(at, 1., Tangent::none) == Deformation::admissible)
+        known_forces -= elastic->residual();
       has_known = true;
       known_at  = version();
     }
@@ -141,8 +142,8 @@ namespace NMM
                                     const LoadAmplitudes &amplitudes)
   {
     set_amplitudes(amplitudes);
-    return elasticity->assemble(u, 1., Tangent::none) == Deformation::admissible
-             ? elasticity->energies().conditions
+    return elastic->assemble(u, 1., Tangent::none) == Deformation::admissible
+             ? elastic->energies().conditions
              : 0.;
   }
 
@@ -152,7 +153,7 @@ namespace NMM
   {
     return loads_change() &&
                assemble_elasticity(step) == Deformation::admissible
-             ? elasticity->energies().work_of_conditions
+             ? elastic->energies().work_of_conditions
              : 0.;
   }
 } // namespace NMM

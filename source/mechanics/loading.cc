@@ -9,6 +9,34 @@
 
 namespace NMM
 {
+  Loading
+  proportional_loading(const ElasticityProblem &problem,
+                       const LoadAmplitudes    &full)
+  {
+    LoadAmplitudes at_one = full;
+    const auto     fill   = [](std::vector<double> &list, const std::size_t n) {
+      if (list.empty())
+        list.assign(n, 1.);
+    };
+    fill(at_one.boundary_conditions, problem.boundary_conditions.size());
+    fill(at_one.point_forces, problem.point_forces.size());
+    fill(at_one.fixed_points, problem.fixed_points.size());
+    Loading loading;
+    loading.amplitudes = [at_one](const double t) {
+      LoadAmplitudes amplitudes = at_one;
+      for (std::vector<double> *list : {&amplitudes.boundary_conditions,
+                                        &amplitudes.point_forces,
+                                        &amplitudes.fixed_points})
+        for (double &amplitude : *list)
+          amplitude *= t;
+      amplitudes.gravity *= t;
+      amplitudes.body_force *= t;
+      return amplitudes;
+    };
+    return loading;
+  }
+
+
   TimeHistory::TimeHistory(std::vector<double> times_in,
                            std::vector<double> values_in)
     : times(std::move(times_in))

@@ -73,7 +73,7 @@ namespace NMM
     StepFault
     try_step(const LoadSteps &steps, LoadStep &step, Vector &u);
 
-    std::unique_ptr<StaticSolid>       own_solid;
+    std::unique_ptr<SolidTerm>         own_solid;
     std::unique_ptr<StaticSystem>      own_system;
     std::unique_ptr<EquilibriumSearch> own_search;
     StaticSystem                      *system = nullptr;
@@ -100,9 +100,16 @@ namespace NMM
           begins_out_of_balance || material.initial_stress.norm() > 0.;
     }
 
+    /// In small displacements the potential is convex, and hence no solution is spurious.
+    bool
+    is_finite() const
+    {
+      return system->solid().kinematics() == Kinematics::finite;
+    }
+
     /// Begin with Newton's method for the forces of @p solid and @p others.
     void
-    initialize(StaticSolid                    &solid,
+    initialize(SolidTerm                      &solid,
                const NewtonParameters         &parameters,
                const std::vector<ForceTerm *> &others)
     {
@@ -121,7 +128,7 @@ namespace NMM
   }
 
 
-  NonlinearStatics::NonlinearStatics(StaticSolid                    &solid,
+  NonlinearStatics::NonlinearStatics(SolidTerm                      &solid,
                                      const NewtonParameters         &parameters,
                                      const std::vector<ForceTerm *> &others)
     : data(std::make_unique<Data>())
@@ -134,8 +141,7 @@ namespace NMM
                                      const NewtonParameters &parameters)
     : data(std::make_unique<Data>())
   {
-    data->own_solid =
-      std::make_unique<StaticSolid>(elasticity, /* is_linearized = */ false);
+    data->own_solid = make_solid_at_rest(elasticity, Kinematics::finite);
     data->initialize(*data->own_solid, parameters, {});
   }
 
@@ -187,7 +193,8 @@ namespace NMM
 
     StepFault fault =
       search->find(step, u, is_extrapolated ? &change : nullptr);
-    if (fault.reason.empty() && system->solid().largest_jump() > steps.max_jump)
+    if (fault.reason.empty() && is_finite() &&
+        system->solid().elasticity().largest_jump() > steps.max_jump)
       fault.reason =
         "displacement conditions or ties are missed by a good part of an "
         "element";
@@ -201,8 +208,8 @@ namespace NMM
   void
   NonlinearStatics::continue_from(const double load_factor, const Vector &u)
   {
-    Data        &d     = *data;
-    StaticSolid &solid = d.system->solid();
+    Data      &d     = *data;
+    SolidTerm &solid = d.system->solid();
     Assert(solid.inelastic_terms() == nullptr, dealii::ExcNotImplemented());
     Vector admissible(u);
     solid.elasticity().affine_constraints().distribute(admissible);
@@ -256,7 +263,8 @@ namespace NMM
       d.states.push_back({step.load_factor, u});
       if (d.states.size() > steps.extrapolation_degree + 1)
         d.states.erase(d.states.begin());
-      d.system->solid().adapt_penalties(u);
+      if (d.is_finite())
+        d.system->solid().elasticity().adapt_penalties(u);
       report.push_back(step);
       if (after_step)
         after_step(step, u);

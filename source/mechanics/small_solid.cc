@@ -1,5 +1,6 @@
 #include <nmm/mechanics/solid_term.h>
 
+#include <algorithm>
 #include <base/archive.h>
 #include <cmath>
 #include <mechanics/load_amplitudes.h>
@@ -26,25 +27,25 @@ namespace NMM
   SmallSolid::~SmallSolid() = default;
 
 
-  bool
+  void
   SmallSolid::update(Part &part, const LoadAmplitudes &amplitudes)
   {
     if (part.is_known && internal::equal(part.amplitudes, amplitudes))
-      return false;
+      return;
     set_amplitudes(amplitudes);
-    (void)elasticity->assemble(zero, 1., Tangent::none);
-    part.forces = elasticity->residual();
+    (void)elastic->assemble(zero, 1., Tangent::none);
+    part.forces = elastic->residual();
     part.forces *= -1.;
+    part.scale      = elastic->force_scale();
     part.amplitudes = amplitudes;
     part.is_known   = true;
-    return true;
   }
 
 
   void
   SmallSolid::update(const LoadAmplitudes &amplitudes)
   {
-    const ElasticityProblem &problem = elasticity->elasticity_problem();
+    const ElasticityProblem &problem = elastic->elasticity_problem();
     const LoadAmplitudes     loads =
                            internal::without_prescribed(problem, amplitudes),
                          supports =
@@ -53,15 +54,14 @@ namespace NMM
     {
       // without loads, because small displacements have no tangent of follower pressure
       set_amplitudes(amplitudes);
-      (void)elasticity->assemble(zero, 0., Tangent::consistent);
+      (void)elastic->assemble(zero, 0., Tangent::consistent);
       stiffness_at     = version();
       has_stiffness    = true;
       initial.is_known = with_loads.is_known = with_supports.is_known = false;
-      (void)update(initial, internal::without_prescribed(problem, supports));
+      update(initial, internal::without_prescribed(problem, supports));
     }
-    if (update(with_loads, loads))
-      scale_of_loads = elasticity->force_scale();
-    (void)update(with_supports, supports);
+    update(with_loads, loads);
+    update(with_supports, supports);
     set_amplitudes(amplitudes);
   }
 
@@ -69,10 +69,11 @@ namespace NMM
   ForceProperties
   SmallSolid::properties() const
   {
-    const bool is_elastic = inelastic == nullptr;
-    return {/* is_linear = */ is_elastic,
-            /* is_symmetric = */ is_elastic,
-            /* is_symmetric_between = */ is_elastic};
+    const bool is_symmetric =
+      inelastic == nullptr || inelastic->totals().n_yielding == 0;
+    return {/* is_linear = */ inelastic == nullptr,
+            is_symmetric,
+            /* is_symmetric_between = */ is_symmetric};
   }
 
 
@@ -101,16 +102,18 @@ namespace NMM
   SmallSolid::commit(const Trial &step)
   {
     StepWork work = SolidTerm::commit(step);
-    if (inelastic)
-      work.dissipated = accept_inelastic(step);
+    if (!inelastic)
+      return work;
+    inelastic->accept(*step.end);
+    work.dissipated = step.begin == nullptr ? inelastic->totals().dissipated
+                                            : dissipated_in(step);
     return work;
   }
 
 
   double
-  SmallSolid::accept_inelastic(const Trial &step)
+  SmallSolid::dissipated_in(const Trial &step) const
   {
-    inelastic->accept(*step.end);
     Vector motion(*step.end), force(inelastic->residual());
     motion -= begin_of_step;
     force.sadd(0.5, 0.5, forces_at_begin);
@@ -172,7 +175,7 @@ namespace NMM
     sum.scale = std::hypot(sum.scale, inelastic->totals().force_scale);
     sum.strain_energy += inelastic->totals().energy;
     if (with_tangent)
-      sum.tangent = &inelastic->add_to(elasticity->tangent());
+      sum.tangent = &inelastic->add_to(elastic->tangent());
     return Deformation::admissible;
   }
 
@@ -194,16 +197,21 @@ namespace NMM
     {
       owned = *trial.end;
       assemble_owned(t_1, amplitudes_at(t_1));
-      elasticity->evaluate_linearized(*trial.end);
-      sum.strain_energy        = elasticity->energies().strain;
-      sum.energy_of_conditions = elasticity->energies().conditions;
-      elastic_scale            = elasticity->force_scale();
+      if (trial.with_energies)
+      {
+        elastic->evaluate_linearized(*trial.end);
+        sum.strain_energy        = elastic->energies().strain;
+        sum.energy_of_conditions = elastic->energies().conditions;
+        elastic_scale            = elastic->force_scale();
+      }
     }
     sum.residual            = &forces;
-    sum.scale               = std::hypot(scale_of_loads, elastic_scale);
+    sum.scale               = trial.with_energies || trial.is_conserving
+                                ? std::hypot(with_loads.scale, elastic_scale)
+                                : scale_at_rest();
     const bool with_tangent = trial.tangent != Tangent::none;
     if (with_tangent)
-      sum.tangent = &elasticity->tangent();
+      sum.tangent = &elastic->tangent();
     if (!inelastic)
       return Deformation::admissible;
     // Conserving forces are the mean of those at both ends. Its derivative with respect to the mean
@@ -215,11 +223,21 @@ namespace NMM
   }
 
 
+  /// The forces of initial stress are in both parts.
+  double
+  SmallSolid::scale_at_rest() const
+  {
+    const double a = with_loads.scale, b = with_supports.scale,
+                 common = initial.scale;
+    return std::sqrt(std::max(a * a, a * a + (b - common) * (b + common)));
+  }
+
+
   void
   SmallSolid::assemble_owned(const double t, const LoadAmplitudes &amplitudes)
   {
     update(amplitudes);
-    elasticity->tangent().vmult(forces, owned);
+    elastic->tangent().vmult(forces, owned);
     // the diagonal entries of constrained and absent unknowns are arbitrary
     layout().constraints->set_zero(forces);
     for (const auto i : layout().absent_unknowns)
@@ -248,7 +266,7 @@ namespace NMM
                                    const LoadAmplitudes &amplitudes)
   {
     set_amplitudes(amplitudes);
-    return elasticity->linearized_condition_energy(u);
+    return elastic->linearized_condition_energy(u);
   }
 
 

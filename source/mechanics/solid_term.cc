@@ -45,7 +45,7 @@ namespace NMM
   SolidTerm::SolidTerm(FiniteElasticity             &elasticity,
                        Loading                       loading_in,
                        std::shared_ptr<const Matrix> mass)
-    : elasticity(&elasticity)
+    : elastic(&elasticity)
     , loading(std::move(loading_in))
     , unknowns(elasticity, std::move(mass))
   {
@@ -70,8 +70,8 @@ namespace NMM
   SolidTerm::set_fingerprint()
   {
     internal::Hash hash_of_solid =
-      internal::hash_of_solid(elasticity->cover_system(),
-                              elasticity->elasticity_problem());
+      internal::hash_of_solid(elastic->cover_system(),
+                              elastic->elasticity_problem());
     hash_of_solid.add(properties().is_linear);
     hash = hash_of_solid.value();
   }
@@ -81,7 +81,7 @@ namespace NMM
   SolidTerm::set_active_blocks(const std::vector<bool> &is_active,
                                const std::vector<bool> &)
   {
-    elasticity->set_active_blocks(is_active);
+    elastic->set_active_blocks(is_active);
   }
 
 
@@ -93,7 +93,7 @@ namespace NMM
     for (unsigned int c = 0; c < 2; ++c)
     {
       Vector translation(layout().locally_owned, layout().communicator);
-      for (const auto k : elasticity->cover_system().locally_owned_covers())
+      for (const auto k : elastic->cover_system().locally_owned_covers())
         if (!layout().constraints->is_constrained(2 * k + c) &&
             !layout().absent_unknowns.is_element(2 * k + c))
           translation(2 * k + c) = 1.;
@@ -116,7 +116,7 @@ namespace NMM
     presence                = present;
     if (!is_departure)
       return;
-    elasticity->set_absent_blocks(presence.absent_blocks);
+    elastic->set_absent_blocks(presence.absent_blocks);
     unknowns.set_absent_blocks(presence.absent_blocks);
     ++n_changes;
     set_mass_of_translation();
@@ -129,7 +129,7 @@ namespace NMM
     LoadAmplitudes amplitudes;
     if (loading.amplitudes)
       amplitudes = loading.amplitudes(t);
-    const ElasticityProblem &problem = elasticity->elasticity_problem();
+    const ElasticityProblem &problem = elastic->elasticity_problem();
     for (const Release &release : loading.releases)
       if (release.time <= presence.events_passed)
       {
@@ -155,7 +155,7 @@ namespace NMM
     if (!loads_change())
       return middle;
     const LoadAmplitudes first = amplitudes_at(t_0), last = amplitudes_at(t_1);
-    const ElasticityProblem &problem = elasticity->elasticity_problem();
+    const ElasticityProblem &problem = elastic->elasticity_problem();
     const auto set_mean = [&](std::vector<double> LoadAmplitudes::*list,
                               const std::size_t                    n,
                               const auto &is_prescribed) {
@@ -227,13 +227,13 @@ namespace NMM
     if (coefficient == 0.)
       return nullptr;
     ++n_changes;
-    const ElasticityProblem &problem = elasticity->elasticity_problem();
+    const ElasticityProblem &problem = elastic->elasticity_problem();
     LoadAmplitudes           free    = amplitudes_at(0.);
     free.released_conditions.assign(problem.boundary_conditions.size(), true);
     free.released_fixed_points.assign(problem.fixed_points.size(), true);
     set_amplitudes(free);
-    (void)elasticity->assemble(zero, 0., Tangent::consistent);
-    return &elasticity->tangent();
+    (void)elastic->assemble(zero, 0., Tangent::consistent);
+    return &elastic->tangent();
   }
 
 
@@ -242,8 +242,10 @@ namespace NMM
   {
     const double t_0 = step.begin_time, t_1 = step.end_time;
     StepWork     work;
-    Vector       begin(layout().locally_owned, layout().communicator);
-    Vector       change(begin), loads(begin);
+    if (step.begin == nullptr)
+      return work;
+    Vector begin(layout().locally_owned, layout().communicator);
+    Vector change(begin), loads(begin);
     begin  = *step.begin;
     change = *step.end;
     if (step.is_conserving)
@@ -271,12 +273,60 @@ namespace NMM
   }
 
 
+  SolidTerm::Vector
+  SolidTerm::residual_at(const Vector &u, const double t)
+  {
+    AssembledForces sum;
+    Trial           trial = Trial::at(u, t);
+    trial.with_energies   = false;
+    (void)assemble(trial, sum);
+    return *sum.residual;
+  }
+
+
+  double
+  SolidTerm::strain_energy_at(const Vector &u, const double t)
+  {
+    AssembledForces sum;
+    (void)assemble(Trial::at(u, t), sum);
+    return sum.strain_energy;
+  }
+
+
+  std::unique_ptr<SolidTerm>
+  make_solid(FiniteElasticity                        &elasticity,
+             const Kinematics                         kinematics,
+             Loading                                  loading,
+             std::shared_ptr<const SolidTerm::Matrix> mass)
+  {
+    if (kinematics == Kinematics::finite)
+      return std::make_unique<FiniteSolid>(elasticity,
+                                           std::move(loading),
+                                           std::move(mass));
+    return std::make_unique<SmallSolid>(elasticity,
+                                        std::move(loading),
+                                        std::move(mass));
+  }
+
+
+  std::unique_ptr<SolidTerm>
+  make_solid_at_rest(FiniteElasticity     &elasticity,
+                     const Kinematics      kinematics,
+                     const LoadAmplitudes &full)
+  {
+    return make_solid(elasticity,
+                      kinematics,
+                      proportional_loading(elasticity.elasticity_problem(),
+                                           full));
+  }
+
+
   bool
   SolidTerm::set_amplitudes(const LoadAmplitudes &amplitudes)
   {
     if (internal::equal(amplitudes, current))
       return false;
-    elasticity->set_amplitudes(amplitudes);
+    elastic->set_amplitudes(amplitudes);
     current = amplitudes;
     return true;
   }

@@ -8,7 +8,7 @@ namespace NMM
   namespace
   {
     std::vector<ForceTerm *>
-    list_of(StaticSolid &solid, const std::vector<ForceTerm *> &others)
+    list_of(SolidTerm &solid, const std::vector<ForceTerm *> &others)
     {
       std::vector<ForceTerm *> terms = {&solid};
       terms.insert(terms.end(), others.begin(), others.end());
@@ -17,7 +17,7 @@ namespace NMM
   } // namespace
 
 
-  StaticSystem::StaticSystem(StaticSolid                    &solid,
+  StaticSystem::StaticSystem(SolidTerm                      &solid,
                              const std::vector<ForceTerm *> &others)
     : solid_term(&solid)
     , model(solid.layout(), list_of(solid, others))
@@ -50,8 +50,9 @@ namespace NMM
                          const Tangent tangent,
                          const Vector *increment)
   {
-    const Deformation state =
-      model.assemble(Trial::at(u, factor, tangent, increment));
+    Trial trial             = Trial::at(u, factor, tangent, increment);
+    trial.with_energies     = false;
+    const Deformation state = model.assemble(trial);
     if (state != Deformation::admissible)
       return state;
     const AssembledForces &forces = model.forces();
@@ -92,6 +93,7 @@ namespace NMM
   StaticSystem::begin_anew()
   {
     largest_factor = 0.;
-    solid_term->forget_states();
+    if (InelasticTerms *const terms = solid_term->inelastic_terms())
+      terms->forget_states();
   }
 } // namespace NMM

@@ -24,7 +24,7 @@ namespace NMM
       , progress(progress)
       // Blocks without supports are allowed, since contact may hold them.
       , elasticity(covers, quadrature, constraints, problem, true)
-      , solid(elasticity, /* is_linearized = */ true)
+      , solid(make_solid_at_rest(elasticity, Kinematics::small))
     {
     }
 
@@ -35,7 +35,7 @@ namespace NMM
       loading.reset();
       contact.begin_anew();
       loading = std::make_unique<ContactStatics>(
-        solid, contact.contact(), contact_newton_parameters(scene, progress));
+        *solid, contact.contact(), contact_newton_parameters(scene, progress));
       if (first.load_factor > 0.)
         loading->continue_from(first.load_factor,
                                first.displacement,
@@ -127,7 +127,7 @@ namespace NMM
           throw;
         }
         const Mechanism mechanism = find_mechanism(
-          *loading, solid, contact.contact(), reached, quadrature);
+          *loading, *solid, contact.contact(), reached, quadrature);
         loading.reset();
         AssertThrow(false,
                     NumericalFailure(error.description() + ". " +

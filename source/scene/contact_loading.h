@@ -1,7 +1,7 @@
 #ifndef nmm_source_scene_contact_loading_h
 #define nmm_source_scene_contact_loading_h
 
-#include <nmm/mechanics/static_solid.h>
+#include <nmm/mechanics/solid_term.h>
 #include <nmm/quadrature/element_quadrature.h>
 
 #include <memory>
@@ -72,7 +72,7 @@ namespace NMM
       ContactAnalysis            &contact;
       Progress                   &progress;
       FiniteElasticity            elasticity;
-      StaticSolid                 solid;
+      std::unique_ptr<SolidTerm>  solid;
       /// The state with which the loading begins.
       LoadingState first;
       /// The present loading; null if none has begun.

@@ -119,10 +119,7 @@ namespace NMM
       elasticity = std::make_unique<FiniteElasticity>(
         *covers, *quadrature, constraints, problem, /* may_float = */ true);
       const auto mass = make_mass_matrix(*elasticity, *mass_quadrature);
-      if (kinematics == Kinematics::finite)
-        model = std::make_unique<FiniteSolid>(*elasticity, loading, mass);
-      else
-        model = std::make_unique<SmallSolid>(*elasticity, loading, mass);
+      model           = make_solid(*elasticity, kinematics, loading, mass);
 
       const TimeScheme scheme =
         parameters.time.time_scheme(kind, kinematics, contact != nullptr);
@@ -185,7 +182,7 @@ namespace NMM
     InelasticTerms *
     DynamicAnalysis::inelastic_terms() const
     {
-      return inelastic_terms_of(model.get());
+      return model ? model->inelastic_terms() : nullptr;
     }
 
 

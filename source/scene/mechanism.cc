@@ -143,7 +143,7 @@ namespace NMM
 
     Mechanism
     find_mechanism(const ContactStatics       &statics,
-                   StaticSolid                &solid,
+                   SolidTerm                  &solid,
                    Contact                    &contact,
                    const double                last,
                    const QuadratureCollection &quadrature)

@@ -75,7 +75,7 @@ namespace NMM
      */
     Mechanism
     find_mechanism(const ContactStatics       &statics,
-                   StaticSolid                &solid,
+                   SolidTerm                  &solid,
                    Contact                    &contact,
                    double                      last,
                    const QuadratureCollection &quadrature);

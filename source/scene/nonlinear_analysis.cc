@@ -33,9 +33,8 @@ namespace NMM
         failure = std::current_exception();
       }
       if (finite)
-        solid = std::make_unique<StaticSolid>(
-          *finite,
-          /* is_linearized = */ !has_large_displacements());
+        solid =
+          make_solid_at_rest(*finite, scene.parameters().model.kinematics);
 
       const auto [first, last] = covers->locally_owned_elements();
       for (unsigned int element = first; element < last; ++element)
@@ -115,7 +114,8 @@ namespace NMM
         row.n_lost_iterations = step.n_lost_iterations;
         row.relative_residual = step.relative_residual;
         plastic_dissipation += problem.thickness * statics.dissipated();
-        row.strain_energy = problem.thickness * solid->strain_energy();
+        row.strain_energy = problem.thickness *
+                            solid->strain_energy_at(solution, step.load_factor);
         add_step(row, solution);
       };
       try
@@ -147,7 +147,8 @@ namespace NMM
         row.n_cuts            = step.n_cuts;
         row.n_lost_iterations = step.n_lost_iterations;
         row.relative_residual = step.relative_residual;
-        row.strain_energy = problem.thickness * solid->strain_energy();
+        row.strain_energy     = problem.thickness *
+                            solid->strain_energy_at(solution, step.load_factor);
         const std::string fault =
           contact->find_deep_penetration(step.contact.largest_penetration);
         AssertThrow(
@@ -167,7 +168,7 @@ namespace NMM
       {
         LoadSteps steps = parameters.load_steps.load_steps();
         // Small displacements are linear in the load as long as no contact state changes.
-        if (solid->is_linearized())
+        if (solid->kinematics() == Kinematics::small)
           steps.extrapolation_degree = 1;
         statics.run(steps, after_step);
       }

@@ -3,7 +3,7 @@
 
 #include <nmm/mechanics/finite_elasticity.h>
 #include <nmm/mechanics/nonlinear_statics.h>
-#include <nmm/mechanics/static_solid.h>
+#include <nmm/mechanics/solid_term.h>
 
 #include <exception>
 #include <memory>
@@ -66,7 +66,7 @@ namespace NMM
 
       /// The elasticity of large and, as linearized by `system`, of small displacements.
       std::unique_ptr<FiniteElasticity> finite;
-      std::unique_ptr<StaticSolid>      solid;
+      std::unique_ptr<SolidTerm>        solid;
       /// The failure to set up equations, since a block floats. It is not an input error, so
       /// solve() throws it.
       std::exception_ptr failure;

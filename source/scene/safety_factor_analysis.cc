@@ -48,13 +48,10 @@ namespace NMM
       elasticity = std::make_unique<FiniteElasticity>(
         *covers, *quadrature, constraints, problem, /* may_float = */ true);
       const auto mass = make_mass_matrix(*elasticity, *mass_quadrature);
-      if (scene.parameters().model.kinematics == Kinematics::finite)
-        model = std::make_unique<FiniteSolid>(*elasticity,
-                                              scene.make_loading(),
-                                              mass);
-      else
-        model =
-          std::make_unique<SmallSolid>(*elasticity, scene.make_loading(), mass);
+      model           = make_solid(*elasticity,
+                         scene.parameters().model.kinematics,
+                         scene.make_loading(),
+                         mass);
     }
 
 
@@ -97,7 +94,7 @@ namespace NMM
                                              update_in_relaxation(scheme));
         with_contact->append_to(force_terms);
       }
-      InelasticTerms *const terms = inelastic_terms_of(model.get());
+      InelasticTerms *const terms = model->inelastic_terms();
       if (terms != nullptr)
       {
         terms->forget_states();
@@ -332,7 +329,7 @@ namespace NMM
       FieldEvaluator::StressLaw law;
       if (scene.parameters().model.kinematics == Kinematics::finite)
         law = CurrentStress::finite(*elasticity);
-      InelasticTerms *const terms = inelastic_terms_of(model.get());
+      InelasticTerms *const terms = model->inelastic_terms();
       if (terms != nullptr)
       {
         terms->set_materials(reduce_strength(problem.materials, shown.factor));

@@ -55,8 +55,10 @@ namespace NMM
                   FiniteElasticity &elasticity,
                   StartReport      &report)
       {
-        StaticSolid  solid(elasticity, /* is_linearized = */ true);
-        StaticSystem system(solid);
+        const auto   solid = make_solid_at_rest(elasticity,
+                                              Kinematics::small,
+                                              amplitudes_at_start(input.scene));
+        StaticSystem system(*solid);
         system.set_load_factor(1.);
         Vector             u(input.covers.locally_owned_dofs(2),
                  input.covers.locally_relevant_dofs(2),
@@ -98,19 +100,21 @@ namespace NMM
                                     input.constraints,
                                     input.problem,
                                     /* may_float = */ input.contact != nullptr);
-        elasticity.set_amplitudes(amplitudes_at_start(scene));
-        const LoadSteps steps = scene.parameters().load_steps.load_steps();
+        const LoadSteps  steps = scene.parameters().load_steps.load_steps();
         if (is_small(scene) && !scene.parameters().is_nonlinear())
           return solve_small(input, elasticity, report);
-        StaticSolid solid(elasticity, is_small(scene));
-        const auto  keep_materials = [&]() {
-          if (const InelasticTerms *terms = solid.inelastic_terms())
+        const auto solid =
+          make_solid_at_rest(elasticity,
+                             scene.parameters().model.kinematics,
+                             amplitudes_at_start(scene));
+        const auto keep_materials = [&]() {
+          if (const InelasticTerms *terms = solid->inelastic_terms())
             report.material_state = terms->internal_state();
         };
         if (input.contact == nullptr)
         {
           NonlinearStatics statics(
-            solid,
+            *solid,
             show_iterations(scene.parameters().newton.newton, input.progress));
           statics.run(steps, [&](const LoadStep &step, const Vector &) {
             ++report.n_steps;
@@ -121,7 +125,7 @@ namespace NMM
           keep_materials();
           return owned_part(input, statics.solution());
         }
-        ContactStatics statics(solid,
+        ContactStatics statics(*solid,
                                input.contact->contact(),
                                contact_newton_parameters(scene,
                                                          input.progress));
@@ -221,12 +225,10 @@ namespace NMM
       Loading                loading;
       loading.amplitudes = [amplitudes](const double) { return amplitudes; };
       const auto mass    = make_mass_matrix(elasticity, input.mass_quadrature);
-      if (is_small(input.scene))
-        model =
-          std::make_unique<SmallSolid>(elasticity, std::move(loading), mass);
-      else
-        model =
-          std::make_unique<FiniteSolid>(elasticity, std::move(loading), mass);
+      model              = make_solid(elasticity,
+                         parameters.model.kinematics,
+                         std::move(loading),
+                         mass);
       std::vector<ForceTerm *> terms = {model.get()};
       if (input.contact != nullptr)
       {
@@ -254,15 +256,7 @@ namespace NMM
     InelasticTerms *
     StartRelaxation::inelastic_terms() const
     {
-      return inelastic_terms_of(model.get());
-    }
-
-
-    InelasticTerms *
-    inelastic_terms_of(const SolidTerm *model)
-    {
-      const auto *const small = dynamic_cast<const SmallSolid *>(model);
-      return small == nullptr ? nullptr : small->inelastic_terms();
+      return model->inelastic_terms();
     }
 
 

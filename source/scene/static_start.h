@@ -79,12 +79,6 @@ namespace NMM
     };
 
 
-    /// The terms of inelastic materials; null if the materials are elastic, or with large
-    /// displacements.
-    InelasticTerms *
-    inelastic_terms_of(const SolidTerm *model);
-
-
     /// Parameters of Newton's method for time steps and relaxation. With contact or materials that
     /// yield there are more iterations than by default, unless the scene gives a number.
     NewtonParameters

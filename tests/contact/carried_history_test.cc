@@ -415,7 +415,7 @@ namespace
       std::make_unique<ContactBars::MovingBodies>(box_on_box(), options);
     result->problem.materials = {material("rock", 1e5, 0.2, 1000.)};
     result->problem.gravity   = Tensor<1, 2>({0., -10.});
-    result->start(rough_parameters(), ContactBars::Kinematics::small);
+    result->start(rough_parameters(), Kinematics::small);
     return result;
   }
 

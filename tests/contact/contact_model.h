@@ -69,8 +69,9 @@ namespace NMM
       {
         elasticity = std::make_unique<FiniteElasticity>(
           covers, quadrature, constraints, problem, /* may_float = */ true);
-        static_solid =
-          std::make_unique<StaticSolid>(*elasticity, is_linearized);
+        static_solid = make_solid_at_rest(*elasticity,
+                                          is_linearized ? Kinematics::small
+                                                        : Kinematics::finite);
         contact = std::make_unique<Contact>(surface, constraints, parameters);
         statics =
           std::make_unique<ContactStatics>(*static_solid, *contact, newton);
@@ -169,7 +170,7 @@ namespace NMM
       QuadratureCollection              quadrature;
       ElasticityProblem                 problem;
       std::unique_ptr<FiniteElasticity> elasticity;
-      std::unique_ptr<StaticSolid>      static_solid;
+      std::unique_ptr<SolidTerm>        static_solid;
       std::unique_ptr<Contact>          contact;
       std::unique_ptr<ContactStatics>   statics;
 

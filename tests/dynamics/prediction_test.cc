@@ -35,7 +35,7 @@ namespace NMM
         ContactParameters parameters =
           contact_parameters(10. * rock_modulus, 0.05);
         coulomb(parameters).friction = std::tan(degrees(friction_angle));
-        bodies->start(parameters, ContactBars::Kinematics::finite);
+        bodies->start(parameters, Kinematics::finite);
         bodies->integrate(scheme, RayleighDamping());
         return bodies;
       }

@@ -46,7 +46,7 @@ namespace NMM
         coulomb(parameters).normal_damping = coulomb(parameters).shear_damping =
           0.2 *
           std::sqrt(coulomb(parameters).normal_stiffness * rock_density * 0.5);
-        bodies->start(parameters, ContactBars::Kinematics::finite);
+        bodies->start(parameters, Kinematics::finite);
         // rock that rings for ever would not sleep
         RayleighDamping damping;
         damping.stiffness = 1e-3;

@@ -36,7 +36,7 @@ namespace
       ContactParameters parameters =
         contact_parameters(0.1 * rock_modulus, 0.05);
       coulomb(parameters).friction = 0.5;
-      bodies->start(parameters, ContactBars::Kinematics::finite);
+      bodies->start(parameters, Kinematics::finite);
       Spring spring;
       spring.start          = {0.3, 0.9};
       spring.end            = {1.8, 0.8};

@@ -15,7 +15,6 @@ using namespace NMM::Test;
 
 namespace
 {
-  using Kinematics = SpringTerm::Kinematics;
 
   /// Blocks that lie apart, a square of each size with the lower left corner at (2 i, 0).
   Body
@@ -196,9 +195,9 @@ namespace
         body.make_small();
       else
         body.make_finite();
-      StaticSolid solid(*body.elasticity, is_small);
-      SpringTerm  springs(body.model->covers, solid.layout(), bars, kinematics);
-      NonlinearStatics statics(solid, {}, {&springs});
+      const auto solid = make_solid_at_rest(*body.elasticity, kinematics);
+      SpringTerm springs(body.model->covers, solid->layout(), bars, kinematics);
+      NonlinearStatics statics(*solid, {}, {&springs});
       statics.run(LoadSteps::equal(2));
       Vector u(body.zero());
       u                                = statics.solution();

@@ -69,8 +69,8 @@ TEST(Inelastic, UniformStrainMPI)
     model->problem.boundary_conditions.push_back(condition(
       BoundaryCondition::Type::displacement, side, vector_function(strained)));
   const auto       elasticity = finite_elasticity(*model);
-  StaticSolid      solid(*elasticity, /* is_linearized = */ true);
-  NonlinearStatics statics(solid, newton_parameters());
+  const auto       solid = make_solid_at_rest(*elasticity, Kinematics::small);
+  NonlinearStatics statics(*solid, newton_parameters());
   statics.run(LoadSteps::equal(4));
 
   const Vector exact = interpolate(*model, strained);
@@ -93,7 +93,7 @@ TEST(Inelastic, UniformStrainMPI)
   unsigned int n_points    = 0;
   for (unsigned int e = first; e < last; ++e)
     for (const InelasticTerms::PointValues &value :
-         solid.inelastic_terms()->values(e))
+         solid->inelastic_terms()->values(e))
     {
       ++n_points;
       EXPECT_LT((value.stress - expected.stress).norm(), 1e-6);
@@ -101,7 +101,7 @@ TEST(Inelastic, UniformStrainMPI)
     }
   EXPECT_GT(dealii::Utilities::MPI::sum(n_points, MPI_COMM_WORLD), 200u);
   // the whole box has yielded
-  EXPECT_NEAR(solid.inelastic_terms()->totals().yielded_area, 2., 1e-10);
+  EXPECT_NEAR(solid->inelastic_terms()->totals().yielded_area, 2., 1e-10);
 }
 
 
@@ -126,8 +126,8 @@ TEST(Inelastic, ColumnBetweenWallsMPI)
     model.problem.boundary_conditions.push_back(
       condition(normal_displacement, side));
   const auto       elasticity = finite_elasticity(model);
-  StaticSolid      solid(*elasticity, /* is_linearized = */ true);
-  NonlinearStatics statics(solid, newton_parameters());
+  const auto       solid = make_solid_at_rest(*elasticity, Kinematics::small);
+  NonlinearStatics statics(*solid, newton_parameters());
   statics.run(LoadSteps::equal(2));
 
   const double K_a =
@@ -136,7 +136,7 @@ TEST(Inelastic, ColumnBetweenWallsMPI)
   const auto [first, last] = model.covers.locally_owned_elements();
   for (unsigned int e = first; e < last; ++e)
   {
-    const auto  values = solid.inelastic_terms()->values(e);
+    const auto  values = solid->inelastic_terms()->values(e);
     const auto &rule   = model.quadrature->rule(e);
     for (unsigned int q = 0; q < values.size(); ++q)
     {
@@ -173,8 +173,8 @@ TEST(Inelastic, InitialStressIsReleasedOnceMPI)
     model.problem.boundary_conditions.push_back(
       condition(normal_displacement, side));
   const auto       elasticity = finite_elasticity(model);
-  StaticSolid      solid(*elasticity, /* is_linearized = */ true);
-  NonlinearStatics statics(solid, newton_parameters());
+  const auto       solid = make_solid_at_rest(*elasticity, Kinematics::small);
+  NonlinearStatics statics(*solid, newton_parameters());
   LoadSteps        steps;
   steps.load_factors       = {0.5, 1., 0.5, 2.};
   steps.leaves_out_reached = false;
@@ -208,8 +208,8 @@ TEST(Inelastic, TangentAgainstDifferences)
   model->problem.boundary_conditions.push_back(
     condition(BoundaryCondition::Type::displacement, "left"));
   const auto   elasticity = finite_elasticity(*model);
-  StaticSolid  solid(*elasticity, /* is_linearized = */ true);
-  StaticSystem system(solid);
+  const auto   solid      = make_solid_at_rest(*elasticity, Kinematics::small);
+  StaticSystem system(*solid);
   system.set_load_factor(1.);
   std::mt19937                           generator(3);
   std::uniform_real_distribution<double> random(-1., 1.);
@@ -227,7 +227,7 @@ TEST(Inelastic, TangentAgainstDifferences)
     const Vector u = field(0.01), direction = field(1.);
     ASSERT_TRUE(system.assemble(u, Tangent::consistent, nullptr) ==
                 Deformation::admissible);
-    ASSERT_GT(solid.inelastic_terms()->totals().n_yielding, 10u);
+    ASSERT_GT(solid->inelastic_terms()->totals().n_yielding, 10u);
     Vector expected(system.residual()), owned(system.residual());
     owned = direction;
     system.tangent().vmult(expected, owned);
@@ -259,8 +259,7 @@ TEST(Inelastic, WhatIsNotThereIsRefused)
   model->problem.boundary_conditions.push_back(
     condition(BoundaryCondition::Type::displacement, "left"));
   const auto elasticity = finite_elasticity(*model);
-  EXPECT_THROW(StaticSolid(*elasticity, /* is_linearized = */ false),
-               InputError);
+  EXPECT_THROW(make_solid_at_rest(*elasticity, Kinematics::finite), InputError);
   EXPECT_THROW(model->problem.materials[0].hyperelastic_law(
                  PlaneState::plane_strain),
                InputError);

@@ -234,9 +234,7 @@ namespace
 
 
   [[maybe_unused]] void
-  contact(CoverSystem       &covers,
-          const Constraints &constraints,
-          StaticSolid       &solid)
+  contact(CoverSystem &covers, const Constraints &constraints, SolidTerm &solid)
   {
     // clang-format off
     // Example of contact/contact.h

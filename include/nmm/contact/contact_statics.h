@@ -48,7 +48,7 @@ namespace NMM
 
     /// Solver for @p solid with the forces of @p contact, both on the same covers, and of @p others,
     /// such as springs.
-    ContactStatics(StaticSolid            &solid,
+    ContactStatics(SolidTerm              &solid,
                    Contact                &contact,
                    const NewtonParameters &newton = default_newton_parameters(),
                    const std::vector<ForceTerm *> &others = {});

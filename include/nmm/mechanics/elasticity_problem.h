@@ -27,12 +27,11 @@
  * | static_elasticity.h | small displacements, one linear system |
  * | finite_elasticity.h | total Lagrangian forces and tangent |
  * | inelastic_terms.h | adds inelastic materials to small displacements |
- * | static_solid.h | the term of a solid at rest |
  * | static_system.h, nonlinear_statics.h | static equilibrium of terms at growing load factors |
  * | force_term.h | interface of one kind of force, and the unknowns of a body |
  * | force_sink.h | where forces between a few covers, of whichever blocks, are added |
  * | mechanical_model.h | the forces of a body as a list of terms |
- * | solid_term.h | the term of a solid: small displacements, or total Lagrangian |
+ * | solid_term.h | the term of a solid, at rest or in motion: small displacements, or total Lagrangian |
  * | spring_term.h | the term of springs between material points |
  * | loading.h | loads, releases and base acceleration as functions of time |
  * | mass_matrix.h | consistent mass matrix |

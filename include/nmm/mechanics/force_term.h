@@ -25,6 +25,16 @@ namespace NMM
   } // namespace internal
 
 
+  /// The description of the deformation.
+  enum class Kinematics
+  {
+    /// Displacements are small: a linear problem if materials are elastic.
+    small,
+    /// Displacements and rotations are of any size, in total Lagrangian form.
+    finite
+  };
+
+
   /**
    * The unknowns of a body: their distribution over ranks, constraints, positions, masses and
    * blocks. They come in pairs: u_{2k} and u_{2k+1} are the components [m] of the displacement of
@@ -127,6 +137,8 @@ namespace NMM
     /// Factor by which a term may multiply a tangent of conserving forces, see
     /// AssembledForces::scaled_tangent; 0: none may [-].
     double tangent_factor = 0.;
+    /// Whether the energies of AssembledForces are wanted, which may cost a further evaluation.
+    bool with_energies = true;
 
     /// Forces of the displacements @p u at the time @p t [s].
     static Trial
@@ -172,7 +184,7 @@ namespace NMM
     double rounding = 0.;
     /// @{
     /// Stored energies of the material, and of displacement conditions, ties, springs and
-    /// contacts [J/m]; undefined for conserving forces.
+    /// contacts [J/m]; undefined for conserving forces, and unless Trial::with_energies.
     double strain_energy = 0., energy_of_conditions = 0.;
     /// @}
     /// Where terms with couplings add forces and tangent; null: no term has couplings.

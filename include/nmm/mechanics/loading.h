@@ -48,6 +48,13 @@ namespace NMM
   };
 
 
+  /// Loads and prescribed displacements that are those of @p problem, multiplied by the amplitudes
+  /// @p full and by the time. This is the loading of a solid at rest, whose time is the load factor.
+  Loading
+  proportional_loading(const ElasticityProblem &problem,
+                       const LoadAmplitudes    &full = {});
+
+
   /**
    * A piecewise linear function of time given by points, e.g. the acceleration of an
    * earthquake. It is 0 before the first and after the last point.

@@ -64,7 +64,7 @@ namespace NMM
                               const NewtonParameters &parameters = {});
 
     /// Statics of @p solid and @p others, such as springs, by Newton's method.
-    explicit NonlinearStatics(StaticSolid                    &solid,
+    explicit NonlinearStatics(SolidTerm                      &solid,
                               const NewtonParameters         &parameters = {},
                               const std::vector<ForceTerm *> &others     = {});
 

@@ -14,9 +14,9 @@
 namespace NMM
 {
   /**
-   * The force term of a solid that moves: the common part of `small` and `finite` kinematics, with
-   * loads as functions of time, releases, and the inertia forces of a moving base. The term of a
-   * solid at rest is StaticSolid.
+   * The force term of a solid: the common part of `small` and `finite` kinematics, with loads as
+   * functions of time, releases, and the inertia forces of a moving base. See make_solid(), and
+   * make_solid_at_rest() for statics, where the time is the load factor.
    *
    * Lifetime: the elasticity must outlive this object, and from then on only this object may set
    * its load amplitudes.
@@ -45,6 +45,32 @@ namespace NMM
     void
     set_active_blocks(const std::vector<bool> &is_active,
                       const std::vector<bool> &is_held) override;
+
+    /// The theory whose forces these are.
+    virtual Kinematics
+    kinematics() const = 0;
+
+    /// Forces of inelastic materials, or null if all materials are elastic.
+    virtual InelasticTerms *
+    inelastic_terms() const
+    {
+      return nullptr;
+    }
+
+    /// The elasticity given to the constructor.
+    FiniteElasticity &
+    elasticity() const
+    {
+      return *elastic;
+    }
+
+    /// Residual of the solid alone at @p u and the time @p t [s], on owned unknowns [N/m].
+    Vector
+    residual_at(const Vector &u, double t);
+
+    /// Energy stored in the material at @p u and the time @p t [J/m].
+    double
+    strain_energy_at(const Vector &u, double t);
 
   protected:
     /**
@@ -110,7 +136,7 @@ namespace NMM
     }
 
     /// Forces of the solid.
-    FiniteElasticity *elasticity;
+    FiniteElasticity *elastic;
     /// Amplitudes, releases and base acceleration given to the constructor.
     Loading loading;
     /// The undeformed state: locally relevant unknowns, zero except for inhomogeneities of the
@@ -136,19 +162,26 @@ namespace NMM
   };
 
 
-  /// The term of a moving solid in total Lagrangian kinematics, see FiniteElasticity. In conserving steps
+  /// The term of a solid in total Lagrangian kinematics, see FiniteElasticity. In conserving steps
   /// stiffness-proportional damping acts on the rate of the Green-Lagrange strain, and hence
   /// neither on rigid rotation nor on supports and ties.
   class FiniteSolid : public SolidTerm
   {
   public:
     /// See the constructor of SolidTerm for arguments and errors.
+    /// @throws InputError for inelastic materials as well.
     explicit FiniteSolid(FiniteElasticity             &elasticity,
                          Loading                       loading = {},
                          std::shared_ptr<const Matrix> mass    = nullptr);
 
     const Matrix *
     damp_by_stiffness(double coefficient, bool is_conserving) override;
+
+    Kinematics
+    kinematics() const override
+    {
+      return Kinematics::finite;
+    }
 
     ForceProperties
     properties() const override;
@@ -189,7 +222,7 @@ namespace NMM
 
 
   /**
-   * The term of a moving solid with small displacements: FiniteElasticity linearized at u = 0,
+   * The term of a solid with small displacements: FiniteElasticity linearized at u = 0,
    * @f[ r(u,t) = K u - f(t), @f]
    * with the geometric stiffness of initial stresses. Follower pressure keeps its
    * direction. K contains the displacement conditions, and f their prescribed displacements. The
@@ -211,9 +244,19 @@ namespace NMM
                         std::shared_ptr<const Matrix> mass    = nullptr);
     ~SmallSolid() override;
 
+    Kinematics
+    kinematics() const override
+    {
+      return Kinematics::small;
+    }
+
+    InelasticTerms *
+    inelastic_terms() const override;
+
     void
     begin_step(const StepBegin &step) override;
 
+    /// The tangent is symmetric as long as nothing has yielded in the last assembly.
     ForceProperties
     properties() const override;
 
@@ -229,15 +272,12 @@ namespace NMM
     void
     restore(internal::ByteReader &archive) override;
 
-    /// Forces of inelastic materials, or null if all materials are elastic.
-    InelasticTerms *
-    inelastic_terms() const;
-
   private:
-    /// A part of f [N/m] and the amplitudes that it was assembled for.
+    /// A part of f [N/m], its scale [N/m] and the amplitudes that it was assembled for.
     struct Part
     {
       Vector         forces;
+      double         scale = 0.;
       LoadAmplitudes amplitudes;
       bool           is_known = false;
     };
@@ -258,9 +298,8 @@ namespace NMM
     energy_of_conditions(const Vector         &u,
                          const LoadAmplitudes &amplitudes) override;
 
-    /// Assemble a part of f unless it is known for these amplitudes. Returns whether it has
-    /// changed.
-    bool
+    /// Assemble a part of f unless it is known for these amplitudes.
+    void
     update(Part &part, const LoadAmplitudes &amplitudes);
 
     /// Assemble K and f as far as they have changed.
@@ -270,6 +309,10 @@ namespace NMM
     /// Compute the elastic forces at the displacements in `owned`.
     void
     assemble_owned(double t, const LoadAmplitudes &amplitudes);
+
+    /// Magnitude of all forces of the solid at rest, in its reference position [N/m].
+    double
+    scale_at_rest() const;
 
     /// Work that supports do against the tractions of inelastic terms by moving from their positions
     /// at @p t_0 to those at @p t_1 [J/m].
@@ -286,23 +329,39 @@ namespace NMM
                   bool             with_tangent,
                   AssembledForces &sum);
 
-    /// Work of friction within the material in the step [J/m].
+    /// Work of friction within the material in a step of motion [J/m].
     double
-    accept_inelastic(const Trial &step);
+    dissipated_in(const Trial &step) const;
 
     Vector       owned, forces;
     unsigned int stiffness_at  = 0;
     bool         has_stiffness = false;
     /// Forces of initial stress, and these together with loads or with prescribed displacements.
     Part initial, with_loads, with_supports;
-    /// Force scale of the last forces at one time, without inelastic terms, and of loads [N/m].
-    double                          elastic_scale = 0., scale_of_loads = 0.;
+    /// Force scale of the last forces whose energies were computed, without inelastic terms [N/m].
+    double                          elastic_scale = 0.;
     std::unique_ptr<InelasticTerms> inelastic;
     /// Inelastic forces [N/m] and sums, displacements [m] and time [s] at the beginning of the step.
     Vector                 forces_at_begin, begin_of_step;
     InelasticTerms::Totals totals_at_begin;
     double                 time_at_begin = 0.;
   };
+
+
+  /// The term of a solid in the given kinematics; see the constructor of SolidTerm.
+  std::unique_ptr<SolidTerm>
+  make_solid(FiniteElasticity                        &elasticity,
+             Kinematics                               kinematics,
+             Loading                                  loading = {},
+             std::shared_ptr<const SolidTerm::Matrix> mass    = nullptr);
+
+
+  /// The term of a solid at rest, whose time is the load factor: by it all loads and prescribed
+  /// displacements are multiplied, and by their amplitudes @p full.
+  std::unique_ptr<SolidTerm>
+  make_solid_at_rest(FiniteElasticity     &elasticity,
+                     Kinematics            kinematics,
+                     const LoadAmplitudes &full = {});
 
 
   /// Interpolate a velocity field v(X) [m/s], given for each block (ManifoldMesh::block()), at the

@@ -42,15 +42,6 @@ namespace NMM
   class SpringTerm : public ForceTerm
   {
   public:
-    /// How displacements enter, see above.
-    enum class Kinematics
-    {
-      /// Forces are linear in the displacements.
-      small,
-      /// Rotations may be of any size.
-      finite
-    };
-
     /// Collective.
     /// @throws InputError for an end outside the solid, a negative stiffness or natural length, and
     /// ends at the same point with a natural length above 0.

@@ -2,7 +2,7 @@
 #define nmm_mechanics_static_system_h
 
 #include <nmm/mechanics/mechanical_model.h>
-#include <nmm/mechanics/static_solid.h>
+#include <nmm/mechanics/solid_term.h>
 #include <nmm/solution/newton_solver.h>
 
 #include <vector>
@@ -30,11 +30,11 @@ namespace NMM
     /// The forces of @p solid and of @p others. Holds the initial stress of inelastic materials.
     /// @throws NumericalFailure if the initial stress of a material cannot be returned to its yield
     /// surface.
-    explicit StaticSystem(StaticSolid                    &solid,
+    explicit StaticSystem(SolidTerm                      &solid,
                           const std::vector<ForceTerm *> &others = {});
 
     /// The solid given to the constructor.
-    StaticSolid &
+    SolidTerm &
     solid() const
     {
       return *solid_term;
@@ -64,7 +64,7 @@ namespace NMM
     begin_anew();
 
   private:
-    StaticSolid    *solid_term;
+    SolidTerm      *solid_term;
     MechanicalModel model;
     double          factor = 0., largest_factor = 0.;
     /// r_0 [N/m]; empty if nothing is held.

@@ -87,15 +87,6 @@ namespace NMM
   };
 
 
-  /// The description of the deformation.
-  enum class Kinematics
-  {
-    /// Displacements are small: one linear problem, StaticElasticity or SmallSolid.
-    small,
-    /// Displacements and rotations are of any size, in total Lagrangian form: FiniteElasticity.
-    finite
-  };
-
   /// The name of the kinematics in scene files.
   const std::string &
   to_string(Kinematics kinematics);

@@ -142,15 +142,15 @@ namespace NMM
           Type::displacement, "top", vector_function([](const Point<2> &) {
             return Tensor<1, 2>({0., -1e-3});
           }))};
-        FiniteElasticity  elasticity(*model.covers,
+        FiniteElasticity elasticity(*model.covers,
                                     *model.quadrature,
                                     model.constraints,
                                     model.problem);
-        StaticSolid       solid(elasticity, /* is_linearized = */ true);
+        const auto solid = make_solid_at_rest(elasticity, Kinematics::small);
         ContactParameters parameters;
         coulomb(parameters).normal_stiffness = 1e9;
         Contact        contact(*model.surface, model.constraints, parameters);
-        ContactStatics statics(solid, contact);
+        ContactStatics statics(*solid, contact);
         double         n_iterations = 0.;
         const unsigned long before  = n_allocations();
         for (const ContactStep &step : statics.run(LoadSteps::equal(1)))

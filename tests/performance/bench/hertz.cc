@@ -17,10 +17,14 @@ namespace NMM
 
       /// Counts and times its assemblies: ContactStatics assembles the contact
       /// once with each of them.
-      class TimedSolid : public StaticSolid
+      class TimedSolid : public SmallSolid
       {
       public:
-        using StaticSolid::StaticSolid;
+        explicit TimedSolid(FiniteElasticity &elasticity)
+          : SmallSolid(elasticity,
+                       proportional_loading(elasticity.elasticity_problem()))
+        {
+        }
 
         Deformation
         assemble(const Trial &trial, AssembledForces &sum) override
@@ -33,7 +37,7 @@ namespace NMM
           if (trial.tangent == Tangent::robust && trial.increment == nullptr)
             ++n_solutions;
           dealii::Timer     timer;
-          const Deformation state = StaticSolid::assemble(trial, sum);
+          const Deformation state = SmallSolid::assemble(trial, sum);
           seconds += timer.wall_time();
           return state;
         }
@@ -181,7 +185,7 @@ namespace NMM
                                     *model.quadrature,
                                     model.constraints,
                                     model.problem);
-        TimedSolid       solid(elasticity, /* is_linearized = */ true);
+        TimedSolid       solid(elasticity);
         Contact contact(*model.surface, model.constraints, contact_parameters);
         ContactStatics statics(solid, contact);
         row.steps = row.iterations = 0.;

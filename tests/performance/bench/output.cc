@@ -66,11 +66,11 @@ namespace NMM
                                     model.problem,
                                     /* may_float = */ true);
         const auto       mass = make_mass_matrix(elasticity, *model.quadrature);
-        std::unique_ptr<SolidTerm> solid;
-        if (is_finite)
-          solid = std::make_unique<FiniteSolid>(elasticity, Loading(), mass);
-        else
-          solid = std::make_unique<SmallSolid>(elasticity, Loading(), mass);
+        const auto       solid =
+          make_solid(elasticity,
+                     is_finite ? Kinematics::finite : Kinematics::small,
+                     Loading(),
+                     mass);
         MechanicalModel mechanics(solid->layout(), {solid.get()});
         TimeIntegrator  integrator(mechanics, TimeScheme::newmark());
         integrator.initialize();

@@ -66,7 +66,7 @@ namespace NMM
         row.covers     = watch.lap();
         bodies.start(scene.make_contact_parameters(bodies.surface,
                                                    bodies.problem),
-                     ContactBars::Kinematics::finite);
+                     Kinematics::finite);
         const Vector u = bodies.find_rest(1e-3, 1e-7);
         row.solution   = watch.lap();
 

@@ -34,14 +34,8 @@ namespace NMM
       touch.reset();
       solid.reset();
       Bodies::start(parameters, kinematics == Kinematics::small);
-      if (kinematics == Kinematics::small)
-        make_model(std::make_unique<SmallSolid>(*elasticity,
-                                                std::move(loading),
-                                                mass()));
-      else
-        make_model(std::make_unique<FiniteSolid>(*elasticity,
-                                                 std::move(loading),
-                                                 mass()));
+      make_model(
+        make_solid(*elasticity, kinematics, std::move(loading), mass()));
     }
 
 

@@ -13,13 +13,6 @@ namespace NMM
   {
     using namespace Test;
 
-    enum class Kinematics
-    {
-      small,
-      finite
-    };
-
-
     /// What happened between two times.
     struct Run
     {

@@ -49,14 +49,8 @@ namespace NMM
       const Vector rest(statics.statics->solution());
 
       // the contact goes on from where the statics left it
-      if (stack.kinematics == Kinematics::small)
-        bodies.make_model(std::make_unique<SmallSolid>(*bodies.elasticity,
-                                                       Loading(),
-                                                       bodies.mass()));
-      else
-        bodies.make_model(std::make_unique<FiniteSolid>(*bodies.elasticity,
-                                                        Loading(),
-                                                        bodies.mass()));
+      bodies.make_model(make_solid(
+        *bodies.elasticity, stack.kinematics, Loading(), bodies.mass()));
       Vector begin(bodies.zero());
       begin = rest;
       bodies.integrate(TimeScheme::energy_momentum(), begin, bodies.zero());

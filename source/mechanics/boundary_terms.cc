@@ -12,42 +12,8 @@ namespace NMM
       , maker(covers, problem, trace_constants)
       , degree(covers.manifold_mesh().mathematical_mesh().degree())
       , n_per_cell(WeightFunctions::n_per_cell(degree))
+      , regions(linear_regions(covers, problem))
     {
-      for (const unsigned int m :
-           problem.region_to_material(covers.manifold_mesh().physical_mesh()))
-      {
-        region_to_response.emplace_back();
-        region_to_response.back().stress = problem.materials[m].initial_stress;
-        hooke_moduli(problem.materials[m].plane_elasticity(problem.plane_state),
-                     region_to_response.back().tangent);
-      }
-    }
-
-
-    NitscheTerms
-    EdgeTerms::terms_at_rest(const WeakPoint &point) const
-    {
-      NitscheTerms terms(point, n_per_cell, point.penalty);
-      terms.d = -point.prescribed;
-      for (unsigned int s = 0; s < point.n_sides; ++s)
-      {
-        const auto &response = region_to_response[point.sides[s].region];
-        terms.fluxes[s].set_elastic(response.stress,
-                                    response.tangent,
-                                    point.normal,
-                                    terms.d);
-      }
-      return terms;
-    }
-
-
-    void
-    EdgeTerms::add_weak_points(const EdgeTables       &edges,
-                               const EdgeTables::Site &site,
-                               LocalSystem            &system) const
-    {
-      for (unsigned int q = site.first_point; q < site.last_point; ++q)
-        terms_at_rest(edges.weak_points[q]).add(system);
     }
 
 
@@ -69,7 +35,7 @@ namespace NMM
       const unsigned int     inside  = is_inside(0) ? 0 : 1;
       const double           outward = inside == 0 ? 1. : -1.;
       const PlaneElasticity &elasticity =
-        maker.elasticities()[mesh.region(element)];
+        regions[mesh.region(element)].elasticity;
 
       const unsigned int n = disk.n_functions();
       result.couplings.assign(n, dealii::Vector<double>(4 * n_per_cell));
@@ -117,7 +83,9 @@ namespace NMM
     {
       const double w_1 = point.sides[inside].share, w_2 = 1. - w_1;
       double       traction[LocalSystem::max_covers][2][2];
-      terms_at_rest(point).traction_derivatives(traction);
+      NitscheTerms terms(point, n_per_cell, point.penalty);
+      set_linear_fluxes(regions, LocalDisplacement(), terms);
+      terms.traction_derivatives(traction);
       // jump and flux are those of the element minus its neighbour, and with its normal
       const double sign = inside == 0 ? 1. : -1.;
       const auto   mean = [&](const unsigned int k) {

@@ -9,7 +9,7 @@
 #include <deal.II/lac/vector.h>
 
 #include <array>
-#include <mechanics/finite_terms.h>
+#include <mechanics/linear_terms.h>
 #include <vector>
 
 namespace NMM
@@ -17,8 +17,7 @@ namespace NMM
   namespace internal
   {
     /**
-     * Terms on edges of elements in small displacements, at rest: displacement conditions, ties,
-     * and the circles of disk covers.
+     * Terms on the circles of disk covers, in small displacements.
      */
     class EdgeTerms
     {
@@ -26,13 +25,6 @@ namespace NMM
       EdgeTerms(const CoverSystem       &covers,
                 const ElasticityProblem &problem,
                 TraceConstants          &trace_constants);
-
-      /// Add the terms of the displacement conditions or ties at a site of @p edges, see
-      /// StaticElasticity.
-      void
-      add_weak_points(const EdgeTables       &edges,
-                      const EdgeTables::Site &site,
-                      LocalSystem            &system) const;
 
       /// Terms of the functions F_j of a disk cover on an edge of its circle. Unknowns are those of
       /// an element, followed by those of its neighbour; v is a displacement of these.
@@ -66,10 +58,6 @@ namespace NMM
                         DiskEdge          &result) const;
 
     private:
-      /// The terms of a point with the fluxes of Hooke's law at zero displacements.
-      NitscheTerms
-      terms_at_rest(const WeakPoint &point) const;
-
       /// The functions F_j of a disk and their tractions sigma(F_j) n at a point of its circle.
       struct DiskPoint
       {
@@ -84,11 +72,10 @@ namespace NMM
                      unsigned int     inside,
                      DiskEdge        &result) const;
 
-      const CoverSystem *covers;
-      WeakPointMaker     maker;
-      unsigned int       degree, n_per_cell;
-      /// Stress and moduli of each region at rest.
-      std::vector<HyperelasticLaw::Response> region_to_response;
+      const CoverSystem        *covers;
+      WeakPointMaker            maker;
+      unsigned int              degree, n_per_cell;
+      std::vector<LinearRegion> regions;
     };
   } // namespace internal
 } // namespace NMM

@@ -158,8 +158,7 @@ namespace NMM
                          const QuadratureCollection &quadrature,
                          const ElasticityProblem    &problem,
                          const CurveConditions      &conditions,
-                         const PointTerms           &points,
-                         const bool                  are_displacements_small)
+                         const PointTerms           &points)
       : boundary_conditions(problem.boundary_conditions.size())
       , point_forces(problem.point_forces.size())
       , covers(&covers)
@@ -169,7 +168,7 @@ namespace NMM
     {
       if (problem.body_force != nullptr || problem.gravity.norm() > 0.)
         add_volume_loads(quadrature);
-      add_tractions(conditions, are_displacements_small);
+      add_tractions(conditions);
       add_point_forces(points.point_force_elements());
     }
 
@@ -221,8 +220,7 @@ namespace NMM
 
 
     void
-    DeadLoads::add_tractions(const CurveConditions &conditions,
-                             const bool             are_displacements_small)
+    DeadLoads::add_tractions(const CurveConditions &conditions)
     {
       const ManifoldMesh     &mesh              = covers->manifold_mesh();
       const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
@@ -233,8 +231,7 @@ namespace NMM
       {
         const BoundaryCondition &condition = problem->boundary_conditions[c];
         if (condition.value == nullptr || is_weak(condition) ||
-            (condition.type == Type::follower_pressure &&
-             !are_displacements_small))
+            condition.type == Type::follower_pressure)
           continue;
         for (unsigned int e = first; e < last; ++e)
           for (const ElementEdge &edge : mesh.edges(e))

@@ -16,7 +16,7 @@ namespace NMM
   namespace internal
   {
     /**
-     * Tables for the nonlinear analyses at the quadrature points of edges in the
+     * Tables at the quadrature points of edges in the
      * reference configuration, computed once. Points of displacement conditions and
      * of ties are called *weak points*; the others are those of follower pressure.
      *
@@ -81,8 +81,7 @@ namespace NMM
     /**
      * Loads that keep direction and size, as forces on covers. There is one list of forces for
      * each boundary condition, each point force, gravity and the body force. The list is empty if
-     * the problem does not have the load. Follower pressure is no such load, except for small
-     * displacements.
+     * the problem does not have the load. Follower pressure is no such load.
      */
     class DeadLoads
     {
@@ -91,8 +90,7 @@ namespace NMM
                 const QuadratureCollection &quadrature,
                 const ElasticityProblem    &problem,
                 const CurveConditions      &conditions,
-                const PointTerms           &points,
-                bool                        are_displacements_small = false);
+                const PointTerms           &points);
 
       /// The forces of one load on covers, each of which occurs once.
       struct Load
@@ -126,8 +124,7 @@ namespace NMM
       add_volume_loads(const QuadratureCollection &quadrature);
 
       void
-      add_tractions(const CurveConditions &conditions,
-                    bool                   are_displacements_small);
+      add_tractions(const CurveConditions &conditions);
 
       void
       add_point_forces(const std::vector<unsigned int> &elements);

@@ -1,5 +1,7 @@
 #include <nmm/base/exceptions.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <mechanics/finite_elasticity_data.h>
 #include <mechanics/nodal_values.h>
@@ -13,12 +15,14 @@ namespace NMM
     const QuadratureCollection              &quadrature,
     const dealii::AffineConstraints<double> &constraints,
     const ElasticityProblem                 &problem,
-    const bool                               may_float)
+    const bool                               may_float,
+    const GhostPenalty                      *ghost_penalty)
     : data(std::make_unique<Data>(covers,
                                   quadrature,
                                   constraints,
                                   problem,
-                                  may_float))
+                                  may_float,
+                                  ghost_penalty))
   {
   }
 
@@ -57,11 +61,39 @@ namespace NMM
       d.nodal[k] = 0.5 * (d.nodal_begin[k] + d.nodal_end[k]);
     });
     Data::Task task{/* load_factor = */ 1., tangent};
-    task.is_between = true;
-    task.first      = first;
-    task.last       = last;
-    task.damping    = damping;
+    task.forces  = Data::Forces::between;
+    task.first   = first;
+    task.last    = last;
+    task.damping = damping;
     return data->assemble(task);
+  }
+
+
+  void
+  FiniteElasticity::assemble_linearized(const Vector &u,
+                                        const double  load_factor)
+  {
+    Assert(data->ghost_pairs.empty(), dealii::ExcNotImplemented());
+    read_nodal_values(*data->covers, u, data->nodal);
+    Data::Task task{load_factor, Tangent::none};
+    task.forces = Data::Forces::linearized;
+    (void)data->assemble(task);
+  }
+
+
+  void
+  FiniteElasticity::assemble_at_rest(const double load_factor)
+  {
+    Data &d = *data;
+    d.inhomogeneities.clear();
+    if (dealii::Utilities::MPI::max(d.constraints->has_inhomogeneities() ? 1
+                                                                         : 0,
+                                    d.covers->communicator()) == 1)
+      read_nodal_values(*d.covers, initial_solution(), d.inhomogeneities);
+    d.nodal.assign(d.covers->n_covers(), dealii::Tensor<1, 2>());
+    Data::Task task{load_factor, Tangent::consistent};
+    task.forces = Data::Forces::at_rest;
+    (void)d.assemble(task);
   }
 
 

@@ -39,29 +39,35 @@ namespace NMM
     const QuadratureCollection              &quadrature,
     const dealii::AffineConstraints<double> &constraints,
     const ElasticityProblem                 &problem,
-    const bool                               may_float)
+    const bool                               may_float,
+    const GhostPenalty                      *ghost_penalty)
     : covers(&covers)
+    , quadrature(&quadrature)
     , constraints(&constraints)
     , problem(&problem)
     , n_per_cell(covers.manifold_mesh().mathematical_mesh().n_covers_per_cell())
     , curve_conditions(checked_mesh(covers, problem), problem)
     , points(covers, problem)
-    , tables(covers, quadrature)
+    , linear_terms(covers, quadrature, problem)
     , dead_loads(covers, quadrature, problem, curve_conditions, points)
     , assembler(covers, constraints)
+    , linear_regions(internal::linear_regions(covers, problem))
+    , ghost_terms(covers, problem)
+    , ghost_pairs(owned_pairs(covers, ghost_penalty))
   {
     if (!may_float)
       check_no_block_floats(covers, problem, curve_conditions, points);
-    TraceConstants trace_constants(covers,
-                                   quadrature,
-                                   constraints,
-                                   curve_conditions);
+    TraceConstants trace_constants(
+      covers, quadrature, constraints, curve_conditions, ghost_penalty);
     edges = std::make_unique<EdgeTables>(covers,
                                          problem,
                                          curve_conditions,
                                          trace_constants);
     for (const EdgeTables::Site &tie : edges->ties)
       assembler.couple({covers_of_tie(tie).data(), 2 * n_per_cell});
+    for (const auto &[first, second] : ghost_pairs)
+      assembler.couple(
+        {covers_of_pair(covers, first, second).data(), 2 * n_per_cell});
     assembler.ignore_inhomogeneities();
     for (const unsigned int m :
          problem.region_to_material(covers.manifold_mesh().physical_mesh()))
@@ -156,7 +162,7 @@ namespace NMM
                                           LocalSystem             &local)
   {
     LocalDisplacement begin, end;
-    if (task.is_between)
+    if (task.forces == Forces::between)
     {
       gather(site, nodal_begin, begin);
       gather(site, nodal_end, end);
@@ -171,7 +177,7 @@ namespace NMM
         factor =
           factors(&LoadAmplitudes::boundary_conditions, point.condition, task);
       NitscheTerms terms(point, n_per_cell, penalty_growth[q] * point.penalty);
-      if (task.is_between)
+      if (task.forces == Forces::between)
       {
         const std::array<dealii::Tensor<1, 2>, 2> d = {
           {terms.jump(begin, factor[0]), terms.jump(end, factor[1])}};
@@ -184,7 +190,10 @@ namespace NMM
       else
       {
         terms.d = terms.jump(u, factor[0]);
-        state   = elastic_fluxes(region_to_law, u, task.tangent, terms);
+        if (task.forces == Forces::finite)
+          state = elastic_fluxes(region_to_law, u, task.tangent, terms);
+        else
+          set_linear_fluxes(linear_regions, u, terms);
         gauge_jump(point, terms.d);
       }
       if (state == Deformation::admissible)
@@ -230,14 +239,20 @@ namespace NMM
                                               const LocalDisplacement &u,
                                               LocalSystem             &local)
   {
+    // in small displacements pressure keeps its direction
+    const bool is_dead =
+      task.forces == Forces::linearized || task.forces == Forces::at_rest;
+    const bool with_matrix = local.with_matrix;
+    local.with_matrix      = with_matrix && !is_dead;
     for (unsigned int q = site.first_point; q < site.last_point; ++q)
     {
       const EdgeTables::FollowerPoint &point = edges->follower_points[q];
       add_follower_point(point,
                          condition_factor(point.condition, task),
-                         u,
+                         is_dead ? LocalDisplacement() : u,
                          local);
     }
+    local.with_matrix = with_matrix;
   }
 
 
@@ -250,12 +265,23 @@ namespace NMM
     const auto         element_covers = covers->covers(element);
     const unsigned int region         = covers->manifold_mesh().region(element);
     LocalDisplacement  first, second;
-    if (task.is_between)
+    if (task.forces == Forces::at_rest)
+    {
+      linear_terms.add_at_rest(element, local);
+      return Deformation::admissible;
+    }
+    const ElementTables::View table = (*tables)(element);
+    if (task.forces == Forces::linearized)
+    {
+      linear_terms.add_forces(element, table, u, local);
+      return Deformation::admissible;
+    }
+    if (task.forces == Forces::between)
     {
       first.gather(element_covers, nodal_begin);
       second.gather(element_covers, nodal_end);
       return add_conserving_terms(region_to_conserving_law[region],
-                                  tables(element),
+                                  table,
                                   first,
                                   second,
                                   task.damping,
@@ -264,7 +290,7 @@ namespace NMM
     if (task.has_increment)
       first.gather(element_covers, nodal_increment);
     return add_volume_terms(*region_to_law[region],
-                            tables(element),
+                            table,
                             u,
                             task.has_increment ? &first : nullptr,
                             local);
@@ -287,6 +313,8 @@ namespace NMM
     auto        follower     = edges->followers.begin();
     Deformation state        = Deformation::admissible;
     const auto [first, last] = covers->locally_owned_elements();
+    if (task.forces != Forces::at_rest)
+      make_tables();
     // lets threads skip the remaining elements once one is inverted
     std::atomic<bool> is_inverted(false);
     n_assembled           = 0;
@@ -333,7 +361,7 @@ namespace NMM
             add_fixed_points(e, task, volume.u, volume.local);
           gauge(volume.local, known);
           energies.conditions += volume.local.energy;
-          add_local(covers->covers(e), volume.local);
+          add_local(task, covers->covers(e), volume.local);
         }
       });
     return state;
@@ -355,9 +383,45 @@ namespace NMM
       if (add_weak_points(tie, task, u, local) != Deformation::admissible)
         return Deformation::inverted;
       energies.conditions += local.energy;
-      add_local({covers_of_tie(tie).data(), 2 * n_per_cell}, local);
+      add_local(task, {covers_of_tie(tie).data(), 2 * n_per_cell}, local);
     }
     return Deformation::admissible;
+  }
+
+
+  void
+  FiniteElasticity::Data::add_ghost_terms(const Task &task)
+  {
+    LocalSystem local;
+    for (const auto &pair : ghost_pairs)
+    {
+      local.reset(2 * n_per_cell);
+      ghost_terms.add_stiffness(pair, local);
+      add_local(task,
+                {covers_of_pair(*covers, pair.first, pair.second).data(),
+                 2 * n_per_cell},
+                local);
+    }
+  }
+
+
+  void
+  FiniteElasticity::Data::add_local(
+    const Task                                  &task,
+    const dealii::ArrayView<const unsigned int> &to,
+    LocalSystem                                 &local)
+  {
+    // the terms at rest are those of u = 0
+    if (task.forces == Forces::at_rest && !inhomogeneities.empty())
+    {
+      LocalDisplacement u;
+      u.gather(to, inhomogeneities);
+      const unsigned int n = 2 * local.n_covers;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          local.rhs[i] += local.matrix[n * i + j] * u.values[j / 2][j % 2];
+    }
+    assembler.add(to, local.with_matrix ? local.matrix : nullptr, local.rhs);
   }
 
 
@@ -408,6 +472,8 @@ namespace NMM
     Deformation state = add_elements(task);
     if (state == Deformation::admissible)
       state = add_ties(task);
+    if (task.forces == Forces::at_rest)
+      add_ghost_terms(task);
     add_dead_loads(task);
     assembler.compress(task.with_tangent());
 

@@ -11,8 +11,11 @@
 #include <mechanics/curve_conditions.h>
 #include <mechanics/edge_tables.h>
 #include <mechanics/element_tables.h>
+#include <mechanics/ghost_terms.h>
+#include <mechanics/linear_terms.h>
 #include <mechanics/point_terms.h>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace NMM
@@ -29,7 +32,21 @@ namespace NMM
          const QuadratureCollection              &quadrature,
          const dealii::AffineConstraints<double> &constraints,
          const ElasticityProblem                 &problem,
-         bool                                     may_float);
+         bool                                     may_float,
+         const GhostPenalty                      *ghost_penalty);
+
+    /// The forces that are assembled.
+    enum class Forces
+    {
+      /// Those of assemble().
+      finite,
+      /// Those of assemble_between().
+      between,
+      /// Those of assemble_linearized().
+      linearized,
+      /// Those of assemble_at_rest().
+      at_rest
+    };
 
     /// Arguments of one assembly.
     struct Task
@@ -37,9 +54,8 @@ namespace NMM
       double  load_factor;
       Tangent tangent;
       bool    has_increment = false;
-      /// Whether forces are those between two states, see assemble_between(), which also explains
-      /// the following members.
-      bool                  is_between = false;
+      Forces  forces        = Forces::finite;
+      /// See assemble_between().
       const LoadAmplitudes *first = nullptr, *last = nullptr;
       double                damping = 0.;
 
@@ -146,34 +162,18 @@ namespace NMM
     add_ties(const Task &task);
 
     void
+    add_ghost_terms(const Task &task);
+
+    void
     add_dead_loads(const Task &task);
 
-    /// @name Small displacements (linearized_energies.cc)
-    /// @{
-
-    /// Stress and moduli of the law of each region in the undeformed state.
-    std::vector<HyperelasticLaw::Response>
-    laws_at_rest() const;
-
-    /// Add the internal forces and the strain energy of an element at the displacements in `nodal`.
+    /// Make the tables of elements unless they are there; forces at rest do not need them.
     void
-    add_linearized_volume(unsigned int                     element,
-                          const HyperelasticLaw::Response &at_rest,
-                          LocalSystem                     &local) const;
-
-    /// Add the energy and the forces of displacement conditions or ties at a site, except for forces
-    /// that vanish with the jump d.
-    void
-    add_linearized_weak_points(
-      const EdgeTables::Site                       &site,
-      const std::vector<HyperelasticLaw::Response> &at_rest,
-      LocalSystem                                  &local) const;
-
-    /// Energy of this rank's conditions, ties and fixed points [J/m]. The squares of their forces
-    /// are added to @p square.
-    double
-    add_linearized_conditions(double &square) const;
-    /// @}
+    make_tables() const
+    {
+      if (!tables)
+        tables.emplace(*covers, *quadrature);
+    }
 
     bool
     is_absent(const unsigned int element) const
@@ -219,27 +219,27 @@ namespace NMM
         largest_jump = std::max(largest_jump, jump);
     }
 
+    /// Add the terms of the covers @p to to the system.
     void
-    add_local(dealii::ArrayView<const unsigned int> covers,
-              const LocalSystem                    &local)
-    {
-      assembler.add(covers,
-                    local.with_matrix ? local.matrix : nullptr,
-                    local.rhs);
-    }
+    add_local(const Task                                  &task,
+              const dealii::ArrayView<const unsigned int> &to,
+              LocalSystem                                 &local);
 
-    const CoverSystem                       *covers;
-    const dealii::AffineConstraints<double> *constraints;
-    const ElasticityProblem                 *problem;
-    unsigned int                             n_per_cell;
-    internal::CurveConditions                curve_conditions;
-    internal::PointTerms                     points;
-    internal::ElementTables                  tables;
-    std::unique_ptr<EdgeTables>              edges;
-    internal::DeadLoads                      dead_loads;
-    internal::CoverMatrixAssembler           assembler;
+    const CoverSystem                             *covers;
+    const QuadratureCollection                    *quadrature;
+    const dealii::AffineConstraints<double>       *constraints;
+    const ElasticityProblem                       *problem;
+    unsigned int                                   n_per_cell;
+    internal::CurveConditions                      curve_conditions;
+    internal::PointTerms                           points;
+    internal::LinearTerms                          linear_terms;
+    mutable std::optional<internal::ElementTables> tables;
+    std::unique_ptr<EdgeTables>                    edges;
+    internal::DeadLoads                            dead_loads;
+    internal::CoverMatrixAssembler                 assembler;
 
     bool                                 is_inelastic = false;
+    std::vector<internal::LinearRegion>  linear_regions;
     internal::RegionLaws                 region_to_law;
     std::vector<internal::ConservingLaw> region_to_conserving_law;
     LoadAmplitudes                       amplitudes;
@@ -250,6 +250,11 @@ namespace NMM
     /// Elements, covers, and entries of each dead load that belong to active blocks.
     internal::ActiveItems              active_elements, active_covers;
     std::vector<internal::ActiveItems> active_loads;
+
+    internal::GhostTerms                               ghost_terms;
+    std::vector<std::pair<unsigned int, unsigned int>> ghost_pairs;
+    /// The inhomogeneities of the constraints as displacements of covers [m]; empty if all are 0.
+    std::vector<dealii::Tensor<1, 2>> inhomogeneities;
 
     /// For each weak point, the factor of its penalty [-]; see adapt_penalties().
     std::vector<double>               penalty_growth;

@@ -100,6 +100,7 @@ namespace NMM
   {
     set_laws(elasticity.problem->materials);
     Assert(elasticity.is_inelastic, dealii::ExcInternalError());
+    elasticity.make_tables();
     number_states();
 
     for (const Element &item : elements)
@@ -152,7 +153,7 @@ namespace NMM
       };
       add_sites(condition, edges.conditions.end());
       add_sites(tie, edges.ties.end());
-      std::size_t n = item.is_inelastic ? elastic->tables(e).n_points : 0;
+      std::size_t n = item.is_inelastic ? (*elastic->tables)(e).n_points : 0;
       for (const Site *site : item.sites)
         for (unsigned int q = site->first_point; q < site->last_point; ++q)
           n += edges.weak_points[q].n_sides;
@@ -201,7 +202,7 @@ namespace NMM
     const CoverSystem &covers = *elastic->covers;
     const unsigned int n      = elastic->n_per_cell;
     const unsigned int region = covers.manifold_mesh().region(item.element);
-    const ElementTables::View table = elastic->tables(item.element);
+    const ElementTables::View table = (*elastic->tables)(item.element);
     LocalDisplacement         u;
     u.gather(covers.covers(item.element), nodal);
     Excess                 excess;
@@ -321,7 +322,7 @@ namespace NMM
           d.add_volume(item, local);
           add_local(covers.covers(item.element), local);
         }
-        state += d.elastic->tables(item.element).n_points;
+        state += (*d.elastic->tables)(item.element).n_points;
       }
       for (const EdgeTables::Site *site : item.sites)
       {
@@ -461,7 +462,7 @@ namespace NMM
     if (it == d.elements.end() || it->element != element || !it->is_inelastic)
       return {};
     const CoverSystem        &covers = *d.elastic->covers;
-    const ElementTables::View table  = d.elastic->tables(element);
+    const ElementTables::View table  = (*d.elastic->tables)(element);
     const unsigned int        n      = d.elastic->n_per_cell;
     const InelasticLaw       &law =
       *d.region_to_law[covers.manifold_mesh().region(element)];

@@ -33,7 +33,7 @@ namespace NMM
     if (part.is_known && internal::equal(part.amplitudes, amplitudes))
       return;
     set_amplitudes(amplitudes);
-    (void)elastic->assemble(zero, 1., Tangent::none);
+    elastic->assemble_linearized(zero, 1.);
     part.forces = elastic->residual();
     part.forces *= -1.;
     part.scale      = elastic->force_scale();
@@ -52,9 +52,8 @@ namespace NMM
                            internal::without_loads(problem, amplitudes);
     if (!has_stiffness || stiffness_at != version())
     {
-      // without loads, because small displacements have no tangent of follower pressure
       set_amplitudes(amplitudes);
-      (void)elastic->assemble(zero, 0., Tangent::consistent);
+      elastic->assemble_at_rest(1.);
       stiffness_at     = version();
       has_stiffness    = true;
       initial.is_known = with_loads.is_known = with_supports.is_known = false;
@@ -195,15 +194,11 @@ namespace NMM
     }
     else
     {
-      owned = *trial.end;
-      assemble_owned(t_1, amplitudes_at(t_1));
+      const LoadAmplitudes amplitudes = amplitudes_at(t_1);
+      owned                           = *trial.end;
+      assemble_owned(t_1, amplitudes);
       if (trial.with_energies)
-      {
-        elastic->evaluate_linearized(*trial.end);
-        sum.strain_energy        = elastic->energies().strain;
-        sum.energy_of_conditions = elastic->energies().conditions;
-        elastic_scale            = elastic->force_scale();
-      }
+        add_energies(*trial.end, amplitudes, sum);
     }
     sum.residual            = &forces;
     sum.scale               = trial.with_energies || trial.is_conserving
@@ -230,6 +225,24 @@ namespace NMM
     const double a = with_loads.scale, b = with_supports.scale,
                  common = initial.scale;
     return std::sqrt(std::max(a * a, a * a + (b - common) * (b + common)));
+  }
+
+
+  /// The scale is that of internal forces and of supports; loads have a scale of their own.
+  void
+  SmallSolid::add_energies(const Vector         &u,
+                           const LoadAmplitudes &amplitudes,
+                           AssembledForces      &sum)
+  {
+    if (!all_blocks_are_active)
+      return;
+    set_amplitudes(
+      internal::without_loads(elastic->elasticity_problem(), amplitudes));
+    elastic->assemble_linearized(u, 1.);
+    set_amplitudes(amplitudes);
+    sum.strain_energy        = elastic->energies().strain;
+    sum.energy_of_conditions = elastic->energies().conditions;
+    elastic_scale            = elastic->force_scale();
   }
 
 
@@ -266,7 +279,8 @@ namespace NMM
                                    const LoadAmplitudes &amplitudes)
   {
     set_amplitudes(amplitudes);
-    return elastic->linearized_condition_energy(u);
+    elastic->assemble_linearized(u, 1.);
+    return elastic->energies().conditions;
   }
 
 

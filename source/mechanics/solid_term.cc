@@ -82,6 +82,8 @@ namespace NMM
                                const std::vector<bool> &)
   {
     elastic->set_active_blocks(is_active);
+    all_blocks_are_active =
+      std::find(is_active.begin(), is_active.end(), false) == is_active.end();
   }
 
 
@@ -232,7 +234,7 @@ namespace NMM
     free.released_conditions.assign(problem.boundary_conditions.size(), true);
     free.released_fixed_points.assign(problem.fixed_points.size(), true);
     set_amplitudes(free);
-    (void)elastic->assemble(zero, 0., Tangent::consistent);
+    elastic->assemble_at_rest(0.);
     return &elastic->tangent();
   }
 

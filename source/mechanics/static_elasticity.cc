@@ -4,19 +4,12 @@
 #include <nmm/mechanics/static_elasticity.h>
 
 #include <algorithm>
-#include <base/in_order.h>
-#include <linear_algebra/cover_matrix_assembler.h>
 #include <linear_algebra/linear_solver.h>
 #include <mechanics/boundary_terms.h>
 #include <mechanics/curve_conditions.h>
 #include <mechanics/disk_system.h>
-#include <mechanics/edge_tables.h>
-#include <mechanics/floating_blocks.h>
-#include <mechanics/ghost_terms.h>
-#include <mechanics/local_system.h>
 #include <mechanics/point_terms.h>
 #include <mechanics/trace_constant.h>
-#include <mechanics/volume_terms.h>
 #include <memory>
 
 namespace NMM
@@ -30,43 +23,6 @@ namespace NMM
       return timer == nullptr
                ? nullptr
                : std::make_unique<dealii::TimerOutput::Scope>(*timer, name);
-    }
-
-
-    /// Couple the covers of elements that are tied or have a ghost penalty.
-    void
-    couple_pairs(
-      const CoverSystem                                        &covers,
-      const internal::CurveConditions                          &conditions,
-      const std::vector<std::pair<unsigned int, unsigned int>> &ghost_pairs,
-      internal::CoverMatrixAssembler                           &assembler)
-    {
-      const unsigned int n =
-        2 * covers.manifold_mesh().mathematical_mesh().n_covers_per_cell();
-      const auto couple = [&](const unsigned int e,
-                              const unsigned int neighbor) {
-        assembler.couple(
-          {internal::covers_of_pair(covers, e, neighbor).data(), n});
-      };
-      internal::for_each_tie(
-        covers, conditions, [&](const unsigned int e, const ElementEdge &edge) {
-          couple(e, edge.neighbor);
-        });
-      for (const auto &pair : ghost_pairs)
-        couple(pair.first, pair.second);
-    }
-
-
-    /// Add the forces of all loads to the right-hand side.
-    void
-    add_loads(const internal::DeadLoads      &loads,
-              internal::CoverMatrixAssembler &assembler)
-    {
-      loads.for_each_load([&](const internal::DeadLoads::Load &load) {
-        constexpr double no_matrix[4] = {};
-        for (unsigned int i = 0; i < load.covers.size(); ++i)
-          assembler.add({&load.covers[i], 1}, no_matrix, &load.forces[i][0]);
-      });
     }
   } // namespace
 
@@ -83,6 +39,7 @@ namespace NMM
     , constraints(&constraints)
     , problem(&problem)
     , ghost_penalty(ghost_penalty)
+    , has_disks(!disks.empty())
     , disks(std::make_unique<internal::DiskSystem>(covers,
                                                    constraints,
                                                    problem,
@@ -100,83 +57,27 @@ namespace NMM
   void
   StaticElasticity::assemble(dealii::TimerOutput *timer)
   {
-    using namespace internal;
-    const ManifoldMesh &mesh = covers->manifold_mesh();
-    const unsigned int  n_per_cell =
-      mesh.mathematical_mesh().n_covers_per_cell();
-
-    const CurveConditions conditions(mesh, *problem);
-    const PointTerms      points(*covers, *problem);
-    check_no_block_floats(*covers, *problem, conditions, points);
-
-    auto                 section = time_section(timer, "sparsity");
-    CoverMatrixAssembler assembler(*covers, *constraints);
-    const auto           ghost_pairs = owned_pairs(*covers, ghost_penalty);
-    couple_pairs(*covers, conditions, ghost_pairs, assembler);
-    assembler.build(matrix, rhs);
-    assembler.reset();
-
+    auto section = time_section(timer, "sparsity");
+    forces       = std::make_unique<FiniteElasticity>(*covers,
+                                                *quadrature,
+                                                *constraints,
+                                                *problem,
+                                                /* may_float = */ false,
+                                                ghost_penalty);
     section.reset();
     section = time_section(timer, "assembly");
-    const VolumeTerms volume_terms(*covers, *quadrature, *problem);
-    const GhostTerms  ghost_terms(*covers, *problem);
-    TraceConstants    trace_constants(
+    forces->assemble_at_rest(1.);
+    rhs = forces->residual();
+    rhs *= -1.;
+    if (!has_disks)
+      return;
+    const internal::CurveConditions conditions(covers->manifold_mesh(),
+                                               *problem);
+    internal::TraceConstants        trace_constants(
       *covers, *quadrature, *constraints, conditions, ghost_penalty);
-    const EdgeTables edges(*covers, *problem, conditions, trace_constants);
-    const EdgeTerms  edge_terms(*covers, *problem, trace_constants);
-    // the right-hand side is the negative force of all terms at rest
-    const auto add = [&](const dealii::ArrayView<const unsigned int> &to,
-                         LocalSystem                                 &local) {
-      for (unsigned int i = 0; i < 2 * local.n_covers; ++i)
-        local.rhs[i] = -local.rhs[i];
-      assembler.add(to, local.matrix, local.rhs);
-    };
-    const LocalDisplacement rest{};
-    auto                    condition = edges.conditions.begin();
-    const auto [first, last]          = covers->locally_owned_elements();
-    for_each_in_order<LocalSystem>(
-      first,
-      last,
-      [&](const unsigned int e, LocalSystem &system) {
-        system.reset(n_per_cell);
-        volume_terms.add(e, system);
-      },
-      [&](const unsigned int e, LocalSystem &system) {
-        if (condition != edges.conditions.end() && condition->element == e)
-          edge_terms.add_weak_points(edges, *condition++, system);
-        for (unsigned int f = 0; f < problem->fixed_points.size(); ++f)
-          if (points.fixed_point_elements()[f] == e)
-            points.add_spring(f, 1., rest, system);
-        add(covers->covers(e), system);
-      });
-    LocalSystem local;
-    const auto  add_pair = [&](const unsigned int e,
-                              const unsigned int neighbor,
-                              const auto        &add_terms) {
-      const auto pair = covers_of_pair(*covers, e, neighbor);
-      local.reset(2 * n_per_cell);
-      add_terms();
-      add({pair.data(), 2 * n_per_cell}, local);
-    };
-    for (const EdgeTables::Site &tie : edges.ties)
-      add_pair(tie.element, tie.neighbor, [&]() {
-        edge_terms.add_weak_points(edges, tie, local);
-      });
-    for (const auto &pair : ghost_pairs)
-      add_pair(pair.first, pair.second, [&]() {
-        ghost_terms.add_stiffness(pair, local);
-      });
-    add_loads(DeadLoads(*covers,
-                        *quadrature,
-                        *problem,
-                        conditions,
-                        points,
-                        /* are_displacements_small = */ true),
-              assembler);
-    section.reset();
-    section = time_section(timer, "to Trilinos");
-    assembler.compress();
-    disks->assemble(edge_terms, conditions, rhs);
+    disks->assemble(internal::EdgeTerms(*covers, *problem, trace_constants),
+                    conditions,
+                    rhs);
   }
 
 
@@ -187,8 +88,13 @@ namespace NMM
     for (const auto &coupling : disks->couplings())
       all_rhs.push_back(&coupling);
     std::vector<dealii::TrilinosWrappers::MPI::Vector> solutions, effects;
-    LinearSolverReport report = internal::solve_linear_system(
-      matrix, all_rhs, *covers, *constraints, parameters, solutions, effects);
+    LinearSolverReport report = internal::solve_linear_system(system_matrix(),
+                                                              all_rhs,
+                                                              *covers,
+                                                              *constraints,
+                                                              parameters,
+                                                              solutions,
+                                                              effects);
     dealii::TrilinosWrappers::MPI::Vector distributed_solution =
       std::move(solutions.front());
     solutions.erase(solutions.begin());
@@ -267,7 +173,7 @@ namespace NMM
   const dealii::TrilinosWrappers::SparseMatrix &
   StaticElasticity::system_matrix() const
   {
-    return matrix;
+    return forces->tangent();
   }
 
 

@@ -97,13 +97,6 @@ namespace NMM
                  const EdgeRule         &rule,
                  std::vector<WeakPoint> &points) const;
 
-      /// Elastic constants of each region of the physical mesh.
-      const std::vector<PlaneElasticity> &
-      elasticities() const
-      {
-        return region_to_elasticity;
-      }
-
     private:
       /// Factor of the penalties [-]. Coercivity requires more than 1; a larger value allows for
       /// several aggregated elements whose bounds use the energy of the same root.

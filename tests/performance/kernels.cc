@@ -14,7 +14,7 @@
 #include <contact/contact_terms.h>
 #include <iostream>
 #include <mechanics/finite_terms.h>
-#include <mechanics/volume_terms.h>
+#include <mechanics/linear_terms.h>
 #include <string>
 #include <vector>
 
@@ -173,7 +173,7 @@ namespace
               [&]() {
                 local.reset(6, with_tangent);
                 const Deformation state =
-                  add_volume_terms(*hyperelastic, table, u, nullptr, local);
+                  add_linear_terms(*hyperelastic, table, u, nullptr, local);
                 sum += local.energy;
                 AssertThrow(state == Deformation::admissible,
                             dealii::ExcInternalError());

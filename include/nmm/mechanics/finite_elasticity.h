@@ -1,6 +1,7 @@
 #ifndef nmm_mechanics_finite_elasticity_h
 #define nmm_mechanics_finite_elasticity_h
 
+#include <nmm/covers/aggregation.h>
 #include <nmm/covers/cover_system.h>
 #include <nmm/materials/hyperelastic_law.h>
 #include <nmm/mechanics/elasticity_problem.h>
@@ -82,12 +83,14 @@ namespace NMM
     /// @throws InputError if the problem does not fit the mesh, see
     /// ElasticityProblem::check(), or a point lies outside the solid.
     /// @throws NumericalFailure for a block whose supports permit a rigid motion, unless
-    /// @p may_float (dynamics).
+    /// @p may_float (dynamics). The terms of @p ghost_penalty, if it is not null, are added by
+    /// assemble_at_rest() only.
     FiniteElasticity(const CoverSystem                       &covers,
                      const QuadratureCollection              &quadrature,
                      const dealii::AffineConstraints<double> &constraints,
                      const ElasticityProblem                 &problem,
-                     bool may_float = false);
+                     bool                                     may_float = false,
+                     const GhostPenalty *ghost_penalty = nullptr);
     ~FiniteElasticity();
 
     /**
@@ -131,23 +134,23 @@ namespace NMM
                      double                damping = 0.);
 
     /**
-     * Evaluate the theory of small displacements at @p u (locally relevant, [m]) and the current
-     * amplitudes: the potential of this class expanded to the second order about u = 0,
-     * @f[ \Pi_2(u) = \int_\Omega P_0:H + \tfrac{1}{2}H:A_0:H\,dA
-     *     + \int_\Gamma -(P_0 + A_0H):(d\otimes N) + \frac{\gamma}{2}|d|^2\,ds
-     *     - \text{loads}(u), \qquad H = \nabla u. @f]
-     * With K and r assembled at u = 0, its derivative is K u + r. Afterwards energies() has the
-     * first integral as `strain` and the second one, with the springs of fixed points, as
-     * `conditions`, and force_scale() is that of the forces of both. Residual and tangent stay as
-     * they are. While some blocks are inactive, nothing is evaluated.
+     * Assemble the residual of the theory of small displacements at @p u (locally relevant, [m]),
+     * the derivative of the potential
+     * @f[ \Pi_2(u) = \int_\Omega S_0:H + \tfrac{1}{2}H:C:H\,dA
+     *     + \int_\Gamma -(S_0 + C:H):(d\otimes N) + \frac{\gamma}{2}|d|^2\,ds
+     *     - \text{loads}(u), \qquad H = \nabla u, @f]
+     * with the initial stress S_0 and the moduli C of the undeformed state. Rotations are neglected,
+     * so that initial stress does not change the stiffness, and follower pressure keeps its
+     * direction. Afterwards energies() has the first integral as `strain` and the second one, with
+     * the springs of fixed points, as `conditions`. The tangent stays as it is.
      */
     void
-    evaluate_linearized(const Vector &u);
+    assemble_linearized(const Vector &u, double load_factor);
 
-    /// Energy of conditions, ties and fixed points of the theory of small displacements, see
-    /// evaluate_linearized() [J/m]. energies() and force_scale() stay as they are.
-    double
-    linearized_condition_energy(const Vector &u);
+    /// Assemble the residual of the theory of small displacements at initial_solution(), and its
+    /// tangent, which is the same at all u.
+    void
+    assemble_at_rest(double load_factor);
 
     /**
      * Increase the penalties gamma with the moduli A(u) at the boundary once these

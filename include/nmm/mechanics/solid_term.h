@@ -142,6 +142,8 @@ namespace NMM
     /// The undeformed state: locally relevant unknowns, zero except for inhomogeneities of the
     /// constraints [m].
     Vector zero;
+    /// Whether all blocks are active, see set_active_blocks().
+    bool all_blocks_are_active = true;
 
   private:
     void
@@ -222,13 +224,11 @@ namespace NMM
 
 
   /**
-   * The term of a solid with small displacements: FiniteElasticity linearized at u = 0,
-   * @f[ r(u,t) = K u - f(t), @f]
-   * with the geometric stiffness of initial stresses. Follower pressure keeps its
-   * direction. K contains the displacement conditions, and f their prescribed displacements. The
-   * energies of strain and conditions are those of FiniteElasticity::evaluate_linearized(), and
-   * the work of loads and that of moving supports are told apart. K changes with releases and
-   * absent blocks only; each part of f is assembled when its amplitudes change.
+   * The term of a solid with small displacements, see FiniteElasticity::assemble_linearized(),
+   * @f[ r(u,t) = K u - f(t). @f]
+   * K contains the displacement conditions, and f their prescribed displacements; the work of loads
+   * and that of moving supports are told apart. K changes with releases and absent blocks only; each
+   * part of f is assembled when its amplitudes change.
    *
    * Inelastic materials add their forces (InelasticTerms). Conserving forces contain the mean of
    * these forces at both ends of a step. The energy dissipated in a step is the work of that mean
@@ -309,6 +309,12 @@ namespace NMM
     /// Compute the elastic forces at the displacements in `owned`.
     void
     assemble_owned(double t, const LoadAmplitudes &amplitudes);
+
+    /// Add the energies of the material and of conditions at @p u, unless some blocks are inactive.
+    void
+    add_energies(const Vector         &u,
+                 const LoadAmplitudes &amplitudes,
+                 AssembledForces      &sum);
 
     /// Magnitude of all forces of the solid at rest, in its reference position [N/m].
     double

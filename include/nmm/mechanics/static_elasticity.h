@@ -6,6 +6,7 @@
 #include <nmm/linear_algebra/linear_solver_parameters.h>
 #include <nmm/mechanics/disk_cover.h>
 #include <nmm/mechanics/elasticity_problem.h>
+#include <nmm/mechanics/finite_elasticity.h>
 #include <nmm/quadrature/element_quadrature.h>
 
 #include <deal.II/base/timer.h>
@@ -72,7 +73,7 @@ namespace NMM
 
     /**
      * Make the sparsity pattern and assemble matrix and right-hand side. @p timer, if not null,
-     * records the sections "sparsity", "assembly" and "to Trilinos".
+     * records the sections "sparsity" and "assembly".
      * @throws NumericalFailure, naming the block, for a block whose displacement conditions and
      * fixed points permit a rigid motion.
      */
@@ -116,12 +117,14 @@ namespace NMM
     const dealii::AffineConstraints<double> *constraints;
     const ElasticityProblem                 *problem;
     const GhostPenalty                      *ghost_penalty;
+    bool                                     has_disks;
     std::unique_ptr<internal::DiskSystem>    disks;
     double                                   disk_energy_value = 0.;
 
-    dealii::TrilinosWrappers::SparseMatrix matrix;
-    dealii::TrilinosWrappers::MPI::Vector  rhs;
-    dealii::TrilinosWrappers::MPI::Vector  relevant_solution;
+    /// The forces of the solid; null before assemble().
+    std::unique_ptr<FiniteElasticity>     forces;
+    dealii::TrilinosWrappers::MPI::Vector rhs;
+    dealii::TrilinosWrappers::MPI::Vector relevant_solution;
   };
 } // namespace NMM
 

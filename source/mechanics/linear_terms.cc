@@ -1,4 +1,5 @@
-#include <mechanics/volume_terms.h>
+#include <mechanics/finite_terms.h>
+#include <mechanics/linear_terms.h>
 #include <optional>
 
 namespace NMM
@@ -81,7 +82,26 @@ namespace NMM
     }
 
 
-    VolumeTerms::VolumeTerms(const CoverSystem          &covers,
+    std::vector<LinearRegion>
+    linear_regions(const CoverSystem &covers, const ElasticityProblem &problem)
+    {
+      std::vector<LinearRegion> regions;
+      for (const unsigned int m :
+           problem.region_to_material(covers.manifold_mesh().physical_mesh()))
+      {
+        const Material &material = problem.materials[m];
+        regions.emplace_back();
+        regions.back().elasticity =
+          material.plane_elasticity(problem.plane_state);
+        if (material.inelastic_law(problem.plane_state) == nullptr)
+          regions.back().initial_stress = material.initial_stress;
+        hooke_moduli(regions.back().elasticity, regions.back().moduli);
+      }
+      return regions;
+    }
+
+
+    LinearTerms::LinearTerms(const CoverSystem          &covers,
                              const QuadratureCollection &quadrature,
                              const ElasticityProblem    &problem)
       : covers(&covers)
@@ -89,17 +109,9 @@ namespace NMM
       , degree(covers.manifold_mesh().mathematical_mesh().degree())
       , n_per_cell(WeightFunctions::n_per_cell(degree))
       , has_whole_integrals(false)
+      , regions(linear_regions(covers, problem))
     {
       const ManifoldMesh &mesh = covers.manifold_mesh();
-      for (const unsigned int m :
-           problem.region_to_material(mesh.physical_mesh()))
-      {
-        const Material &material = problem.materials[m];
-        region_to_elasticity.push_back(
-          material.plane_elasticity(problem.plane_state));
-        region_to_initial_stress.push_back(material.initial_stress);
-      }
-
       const auto [first, last] = covers.locally_owned_elements();
       for (unsigned int e = first; e < last && !has_whole_integrals; ++e)
         if (mesh.is_whole(e))
@@ -111,10 +123,11 @@ namespace NMM
 
 
     void
-    VolumeTerms::add(const unsigned int element, LocalSystem &system) const
+    LinearTerms::add_at_rest(const unsigned int element,
+                             LocalSystem       &system) const
     {
       const ManifoldMesh &mesh   = covers->manifold_mesh();
-      const unsigned int  region = mesh.region(element);
+      const LinearRegion &region = regions[mesh.region(element)];
 
       const ReferenceIntegrals         *integrals = &whole_integrals;
       std::optional<ReferenceIntegrals> cut_integrals;
@@ -129,13 +142,9 @@ namespace NMM
         dealii::transpose(dealii::invert(jacobian));
       const double t00 = T[0][0], t01 = T[0][1], t10 = T[1][0], t11 = T[1][1];
 
-      add_linear_stiffness(*integrals,
-                           jacobian,
-                           region_to_elasticity[region],
-                           system);
+      add_linear_stiffness(*integrals, jacobian, region.elasticity, system);
 
-      const dealii::SymmetricTensor<2, 2> &stress =
-        region_to_initial_stress[region];
+      const dealii::SymmetricTensor<2, 2> &stress = region.initial_stress;
       for (unsigned int i = 0; i < n_per_cell; ++i)
       {
         const double *g = integrals->gradients[i];
@@ -143,6 +152,49 @@ namespace NMM
         for (unsigned int c = 0; c < 2; ++c)
           system.rhs[2 * i + c] +=
             det * (stress[c][0] * g0 + stress[c][1] * g1);
+      }
+    }
+
+
+    void
+    LinearTerms::add_forces(const unsigned int         element,
+                            const ElementTables::View &table,
+                            const LocalDisplacement   &u,
+                            LocalSystem               &system) const
+    {
+      const LinearRegion &region =
+        regions[covers->manifold_mesh().region(element)];
+      for (unsigned int q = 0; q < table.n_points; ++q)
+      {
+        const double(*g)[2]               = table.gradients + q * n_per_cell;
+        const double               weight = table.weights[q];
+        const dealii::Tensor<2, 2> H =
+          displacement_gradient(n_per_cell, u.values, g);
+        const dealii::Tensor<2, 2> initial = region.initial_stress,
+                                   stress =
+                                     initial + multiply(region.moduli, H);
+        system.energy +=
+          0.5 * weight * dealii::scalar_product(initial + stress, H);
+        add_stress(n_per_cell, g, weight * stress, system.rhs);
+      }
+    }
+
+
+    void
+    set_linear_fluxes(const std::vector<LinearRegion> &regions,
+                      const LocalDisplacement         &u,
+                      NitscheTerms                    &terms)
+    {
+      const WeakPoint &point = terms.point;
+      for (unsigned int s = 0; s < point.n_sides; ++s)
+      {
+        const LinearRegion        &region  = regions[point.sides[s].region];
+        const dealii::Tensor<2, 2> initial = region.initial_stress;
+        terms.fluxes[s].set_elastic(initial + multiply(region.moduli,
+                                                       terms.gradient(u, s)),
+                                    region.moduli,
+                                    point.normal,
+                                    terms.d);
       }
     }
   } // namespace internal

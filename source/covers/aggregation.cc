@@ -1,9 +1,7 @@
 #include <nmm/base/compat.h>
 #include <nmm/base/exceptions.h>
 #include <nmm/covers/aggregation.h>
-#include <nmm/covers/rank_cells.h>
 
-#include "element_exchange.h"
 #include "element_order.h"
 #include <algorithm>
 #include <array>
@@ -21,7 +19,7 @@ namespace NMM
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
     {
       const unsigned int parent = roots.element_to_parent[e];
-      if (parent != e && parent != invalid_index)
+      if (parent != e)
         result.pairs.emplace_back(std::min(e, parent), std::max(e, parent));
     }
     std::sort(result.pairs.begin(), result.pairs.end());
@@ -30,33 +28,11 @@ namespace NMM
   }
 
 
-  namespace
-  {
-    /// Mark the covers of ghost elements as free that are free on the ranks of their elements.
-    void
-    share_free_covers(const CoverSystem &covers, std::vector<bool> &is_free)
-    {
-      const ManifoldMesh &mesh = covers.manifold_mesh();
-      const unsigned int  n    = mesh.mathematical_mesh().n_covers_per_cell();
-      std::vector<unsigned char> free(n * mesh.n_elements());
-      for (unsigned int e = 0; e < mesh.n_elements(); ++e)
-        for (unsigned int i = 0; i < n; ++i)
-          free[e * n + i] = is_free[covers.covers(e)[i]];
-      mesh.exchange()->update_ghosts(free, n);
-      for (unsigned int e = 0; e < mesh.n_elements(); ++e)
-        for (unsigned int i = 0; i < n; ++i)
-          if (free[e * n + i])
-            is_free[covers.covers(e)[i]] = true;
-    }
-  } // namespace
-
-
   Aggregation
   aggregate(CoverSystem &covers, const double threshold)
   {
-    const ManifoldMesh     &manifold_mesh = covers.manifold_mesh();
-    const MathematicalMesh &mesh          = manifold_mesh.mathematical_mesh();
-    const unsigned int      n_elements    = manifold_mesh.n_elements();
+    const ManifoldMesh &manifold_mesh = covers.manifold_mesh();
+    const unsigned int  n_elements    = manifold_mesh.n_elements();
 
     Aggregation result;
     result.element_to_root =
@@ -69,16 +45,6 @@ namespace NMM
         for (const unsigned int k : covers.covers(e))
           is_used[k] = 1;
     result.is_free.assign(is_used.begin(), is_used.end());
-    if (manifold_mesh.exchange() != nullptr)
-      share_free_covers(covers, result.is_free);
-
-    // On a distributed mesh, consider only covers whose elements are all known on this rank.
-    const RankCells  *rank_cells = mesh.rank_cells();
-    std::vector<bool> is_wanted(covers.n_covers(), rank_cells == nullptr);
-    for (unsigned int e = 0; e < n_elements && rank_cells != nullptr; ++e)
-      if (rank_cells->is_near[manifold_mesh.cell(e)])
-        for (const unsigned int k : covers.covers(e))
-          is_wanted[k] = true;
 
     // The root of a cover's largest element; of equal elements, the one whose root is nearer.
     struct Candidate
@@ -99,14 +65,13 @@ namespace NMM
     std::vector<Candidate>    best;
     std::vector<unsigned int> cover_to_best(covers.n_covers(), invalid_index);
     for (unsigned int e = 0; e < n_elements; ++e)
-      if (result.element_to_root[e] != e &&
-          result.element_to_root[e] != invalid_index)
+      if (result.element_to_root[e] != e)
       {
         const unsigned int root = result.element_to_root[e];
         const double       area = manifold_mesh.area(e);
         const Point<2> middle   = internal::cell_centroid(manifold_mesh, root);
         for (const unsigned int k : covers.covers(e))
-          if (!result.is_free[k] && is_wanted[k])
+          if (!result.is_free[k])
           {
             const Candidate candidate = {k,
                                          root,
@@ -130,11 +95,10 @@ namespace NMM
     // Values of other ranks that this rank needs.
     std::vector<types::global_dof_index> relevant;
     for (const auto &[k, root] : result.cover_to_root)
-      if (covers.locally_relevant_covers().is_element(covers.global_cover(k)))
+      if (covers.locally_relevant_covers().is_element(k))
         for (const unsigned int r : covers.covers(root))
-          if (!covers.locally_relevant_covers().is_element(
-                covers.global_cover(r)))
-            relevant.push_back(covers.global_cover(r));
+          if (!covers.locally_relevant_covers().is_element(r))
+            relevant.push_back(r);
     covers.make_relevant(std::move(relevant));
     return result;
   }
@@ -174,7 +138,7 @@ namespace NMM
     std::vector<std::pair<types::global_dof_index, double>> entries;
     for (const auto &[k, root] : aggregation.cover_to_root)
     {
-      if (!covers.locally_relevant_covers().is_element(covers.global_cover(k)))
+      if (!covers.locally_relevant_covers().is_element(k))
         continue;
       const Point<2> xi =
         mesh.real_to_reference(covers.manifold_mesh().cell(root),
@@ -188,12 +152,8 @@ namespace NMM
         // vanish.
         for (unsigned int j = 0; j < root_covers.size(); ++j)
           if (std::abs(weights[j]) > 1e-14)
-            entries.emplace_back(n_components *
-                                     covers.global_cover(root_covers[j]) +
-                                   c,
-                                 weights[j]);
-        const types::global_dof_index line =
-          n_components * covers.global_cover(k) + c;
+            entries.emplace_back(n_components * root_covers[j] + c, weights[j]);
+        const types::global_dof_index line = n_components * k + c;
         constraints.add_line(line);
         constraints.add_entries(line, entries);
       }

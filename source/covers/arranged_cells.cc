@@ -32,7 +32,6 @@ namespace NMM
         , state(state)
         , divided(divided)
         , result(result)
-        , is_part_of_mesh(mesh.rank_cells() != nullptr)
       {
         arrange();
         label_regions();
@@ -114,8 +113,6 @@ namespace NMM
       const DividedCells               &divided;
       Cutting                          &result;
       Arrangement                       arrangement;
-      /// Whether the mesh is distributed, so that cells of other ranks may lie beyond its rim.
-      bool is_part_of_mesh;
 
       std::unordered_map<const Arrangement::Vertex *, unsigned int>
         vertex_to_index;
@@ -290,7 +287,7 @@ namespace NMM
         const unsigned int c    = left_cell(he, e);
         if (c == invalid_index)
         {
-          AssertThrow(data.region == invalid_index || is_part_of_mesh,
+          AssertThrow(data.region == invalid_index,
                       InputError("the solid sticks out of the "
                                  "mathematical mesh",
                                  to_string(to_double(he->source()->point())),

@@ -1,10 +1,7 @@
-#include <nmm/base/exceptions.h>
 #include <nmm/covers/cover_system.h>
 
-#include "element_exchange.h"
 #include <algorithm>
 #include <base/disjoint_sets.h>
-#include <numeric>
 
 namespace NMM
 {
@@ -41,22 +38,7 @@ namespace NMM
     , n_per_element(manifold_mesh.mathematical_mesh().n_covers_per_cell())
   {
     number_covers();
-    if (mesh->exchange() == nullptr)
-    {
-      n_global = cover_to_mathematical.size();
-      distribute();
-      return;
-    }
-    int are_equal;
-    MPI_Comm_compare(communicator,
-                     mesh->exchange()->communicator(),
-                     &are_equal);
-    AssertThrow(are_equal == MPI_IDENT || are_equal == MPI_CONGRUENT,
-                InputError("the mathematical mesh is distributed over other "
-                           "ranks than its covers",
-                           "CoverSystem",
-                           "use one communicator for both"));
-    number_globally();
+    distribute();
   }
 
 
@@ -138,77 +120,6 @@ namespace NMM
     }
     cover_to_mathematical.assign(to_mathematical.begin(),
                                  to_mathematical.end());
-  }
-
-
-  /**
-   * Number covers with two exchanges between neighbours. First the owner of a cover, whose elements
-   * are around those of the other ranks, gives the cover its number. Then the owner of each element
-   * knows the numbers of all covers of that element, and sends them to the ranks that hold the
-   * element.
-   */
-  void
-  CoverSystem::number_globally()
-  {
-    owned_elements                       = mesh->owned_elements();
-    const internal::ElementExchange &all = *mesh->exchange();
-
-    // Covers are numbered by their first appearance, so that those in elements of lower ranks come
-    // first.
-    const auto first_new_cover = [&](const unsigned int element) {
-      unsigned int n = 0;
-      for (unsigned int i = 0; i < element * n_per_element; ++i)
-        n = std::max(n, element_to_covers[i] + 1);
-      return n;
-    };
-    const unsigned int begin   = first_new_cover(owned_elements.first),
-                       end     = std::max(begin,
-                                      first_new_cover(owned_elements.second));
-    const unsigned int n_owned = end - begin;
-    unsigned int       first   = 0;
-    MPI_Exscan(&n_owned, &first, 1, MPI_UNSIGNED, MPI_SUM, mpi_communicator);
-    if (Utilities::MPI::this_mpi_process(mpi_communicator) == 0)
-      first = 0;
-    n_global = Utilities::MPI::sum(n_owned, mpi_communicator);
-
-    std::vector<unsigned int> piece_to_global(n_covers(), invalid_index);
-    std::iota(piece_to_global.begin() + begin,
-              piece_to_global.begin() + end,
-              first);
-    std::vector<unsigned int> element_to_global(element_to_covers.size());
-    for (unsigned int round = 0; round < 2; ++round)
-    {
-      for (unsigned int i = 0; i < element_to_covers.size(); ++i)
-        element_to_global[i] = piece_to_global[element_to_covers[i]];
-      all.update_ghosts(element_to_global, n_per_element);
-      for (unsigned int i = 0; i < element_to_covers.size() && round == 0; ++i)
-        if (element_to_global[i] != invalid_index)
-          piece_to_global[element_to_covers[i]] = element_to_global[i];
-    }
-
-    // Pieces that are separate in the outermost ghost cells may be connected on another rank.
-    local_to_global = element_to_global;
-    std::sort(local_to_global.begin(), local_to_global.end());
-    local_to_global.erase(std::unique(local_to_global.begin(),
-                                      local_to_global.end()),
-                          local_to_global.end());
-    Assert(local_to_global.empty() || local_to_global.back() < n_global,
-           ExcInternalError());
-    std::vector<unsigned int> to_mathematical(local_to_global.size());
-    for (unsigned int i = 0; i < element_to_covers.size(); ++i)
-    {
-      const unsigned int local = local_cover(element_to_global[i]);
-      to_mathematical[local]   = cover_to_mathematical[element_to_covers[i]];
-      element_to_covers[i]     = local;
-    }
-    cover_to_mathematical = std::move(to_mathematical);
-
-    owned_covers.set_size(n_global);
-    owned_covers.add_range(first, first + n_owned);
-    owned_covers.compress();
-    relevant_covers.set_size(n_global);
-    relevant_covers.add_indices(local_to_global.begin(), local_to_global.end());
-    relevant_covers.compress();
   }
 
 
@@ -317,36 +228,6 @@ namespace NMM
   }
 
 
-  unsigned int
-  CoverSystem::n_global_covers() const
-  {
-    return n_global;
-  }
-
-
-  unsigned int
-  CoverSystem::global_cover(const unsigned int cover) const
-  {
-    AssertIndexRange(cover, n_covers());
-    return local_to_global.empty() ? cover : local_to_global[cover];
-  }
-
-
-  unsigned int
-  CoverSystem::local_cover(const unsigned int global_cover) const
-  {
-    AssertIndexRange(global_cover, n_global_covers());
-    if (local_to_global.empty())
-      return global_cover;
-    const auto position = std::lower_bound(local_to_global.begin(),
-                                           local_to_global.end(),
-                                           global_cover);
-    return position == local_to_global.end() || *position != global_cover
-             ? invalid_index
-             : position - local_to_global.begin();
-  }
-
-
   ArrayView<const unsigned int>
   CoverSystem::covers(const unsigned int element) const
   {
@@ -369,7 +250,7 @@ namespace NMM
       for (unsigned int c = 0; c < n_components; ++c)
         indices[n_components * i + c] =
           static_cast<types::global_dof_index>(n_components) *
-            global_cover(element_covers[i]) +
+            element_covers[i] +
           c;
   }
 

@@ -86,14 +86,13 @@ namespace NMM
         arranged->append_edges();
 
       // A curve that leaves the mesh has left it through an edge of an element.
-      if (part.mesh->rank_cells() == nullptr)
-        for (const unsigned int e : part.edges)
-          AssertThrow(cutting.is_met[e],
-                      InputError("a part of the solid lies outside the "
-                                 "mathematical mesh",
-                                 to_string(
-                                   part.physical_edges->edges()[e].shape.start),
-                                 "give a mesh that covers it"));
+      for (const unsigned int e : part.edges)
+        AssertThrow(cutting.is_met[e],
+                    InputError("a part of the solid lies outside the "
+                               "mathematical mesh",
+                               to_string(
+                                 part.physical_edges->edges()[e].shape.start),
+                               "give a mesh that covers it"));
     }
 
 

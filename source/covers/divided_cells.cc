@@ -186,8 +186,7 @@ namespace NMM
         // A boundary of the solid may lie on that of the mesh.
         const unsigned int h =
           cell.first_half_edge + cell.first_of_side[side] + piece;
-        AssertThrow(half_edges[h].physical_edge != invalid_index ||
-                      mesh.rank_cells() != nullptr,
+        AssertThrow(half_edges[h].physical_edge != invalid_index,
                     InputError("the solid sticks out of the mathematical mesh",
                                to_string(start(cell.cell, side, piece)),
                                "give a mesh that covers it"));

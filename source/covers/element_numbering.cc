@@ -1,5 +1,3 @@
-#include <nmm/covers/rank_cells.h>
-
 #include "manifold_mesh_data.h"
 #include <algorithm>
 
@@ -51,30 +49,6 @@ namespace NMM
       return order;
     }
 
-
-    /// The same for a distributed mesh: ghost cells of lower ranks, own ones, ghost cells of higher
-    /// ranks.
-    std::vector<unsigned int>
-    order_cells_of_rank(const internal::CellNeighbors    &neighbors,
-                        const RankCells                  &rank_cells,
-                        const std::vector<unsigned char> &holds_elements)
-    {
-      std::vector<unsigned int>  lower, higher;
-      std::vector<unsigned char> holds_owned(holds_elements);
-      for (unsigned int c = 0; c < neighbors.size(); ++c)
-        if (holds_elements[c] && rank_cells.cell_to_owner[c] != rank_cells.rank)
-        {
-          holds_owned[c] = 0;
-          (rank_cells.cell_to_owner[c] < rank_cells.rank ? lower : higher)
-            .push_back(c);
-        }
-      std::vector<unsigned int>       order = std::move(lower);
-      const std::vector<unsigned int> owned =
-        order_cells(neighbors, holds_owned);
-      order.insert(order.end(), owned.begin(), owned.end());
-      order.insert(order.end(), higher.begin(), higher.end());
-      return order;
-    }
   } // namespace
 
 
@@ -104,11 +78,7 @@ namespace NMM
     element_to_cell.reserve(n_elements);
     element_to_region.reserve(n_elements);
     cell_first_element.assign(n_cells, invalid_index);
-    const RankCells *rank_cells = mathematical_mesh->rank_cells();
-    for (const unsigned int c :
-         rank_cells == nullptr
-           ? order_cells(neighbors, holds)
-           : order_cells_of_rank(neighbors, *rank_cells, holds))
+    for (const unsigned int c : order_cells(neighbors, holds))
     {
       cell_first_element[c] = element_to_cell.size();
       for (unsigned int i = 0; i < n_in_cell[c]; ++i)
@@ -116,22 +86,6 @@ namespace NMM
         element_to_cell.push_back(c);
         element_to_region.push_back(cutting.cell_region[c]);
       }
-    }
-    owned_elements = {0, element_to_cell.size()};
-    if (rank_cells != nullptr)
-    {
-      const auto end_of = [&](const auto &comes_before) {
-        return std::partition_point(element_to_cell.begin(),
-                                    element_to_cell.end(),
-                                    [&](const unsigned int c) {
-                                      return comes_before(
-                                        rank_cells->cell_to_owner[c],
-                                        rank_cells->rank);
-                                    }) -
-               element_to_cell.begin();
-      };
-      owned_elements = {end_of(std::less<unsigned int>()),
-                        end_of(std::less_equal<unsigned int>())};
     }
     std::vector<unsigned int> next(cell_first_element);
     exact_to_element.resize(cutting.elements.size());

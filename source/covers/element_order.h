@@ -59,8 +59,6 @@ namespace NMM
       std::array<double, 7> values;
       double                cell_size;
 
-      ElementPlace() = default;
-
       ElementPlace(const ManifoldMesh &mesh, const unsigned int element)
         : cell_size(mesh.mathematical_mesh().cell_diameter(mesh.cell(element)))
       {

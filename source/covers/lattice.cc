@@ -94,17 +94,15 @@ namespace NMM
 
     namespace
     {
-      /// For each row of @p box, the parallelograms within one lattice step of a curve, ascending.
+      /// For each row of the lattice, the parallelograms within one lattice step of a curve, ascending.
       /// Samples are at most a quarter of a step apart (in lattice coordinates), so that every
       /// point of the curve lies in the 3 x 3 neighbourhood of some sample's parallelogram.
       std::vector<std::vector<std::int64_t>>
       find_near_curves(const PhysicalMesh &physical_mesh,
                        const Lattice      &lattice,
-                       const double        cell_size,
-                       const LatticeBox   &box)
+                       const double        cell_size)
       {
-        std::vector<std::vector<std::int64_t>> rows(box.upper[1] -
-                                                    box.lower[1]);
+        std::vector<std::vector<std::int64_t>> rows(lattice.n[1]);
         for (const ElementEdge &edge : internal::solid_edges(physical_mesh))
         {
           LatticeNode last = {{std::numeric_limits<std::int64_t>::max(), 0}};
@@ -115,11 +113,16 @@ namespace NMM
                 static_cast<std::int64_t>(std::floor(s[1]))}};
             if (node == last)
               return;
-            last = node;
-            for (std::int64_t j = node[1] - 1; j <= node[1] + 1; ++j)
-              for (std::int64_t i = node[0] - 1; i <= node[0] + 1; ++i)
-                if (box.contains({{i, j}}))
-                  rows[j - box.lower[1]].push_back(i);
+            last             = node;
+            const auto first = [&](const unsigned int d) {
+              return std::max<std::int64_t>(node[d] - 1, 0);
+            };
+            const auto end = [&](const unsigned int d) {
+              return std::min(node[d] + 2, lattice.n[d]);
+            };
+            for (std::int64_t j = first(1); j < end(1); ++j)
+              for (std::int64_t i = first(0); i < end(0); ++i)
+                rows[j].push_back(i);
           });
         }
         for (auto &row : rows)
@@ -143,8 +146,7 @@ namespace NMM
     std::vector<LatticeNode>
     find_needed_parallelograms(const PhysicalMesh          &physical_mesh,
                                const Lattice               &lattice,
-                               const RegularMeshParameters &parameters,
-                               const LatticeBox            &box)
+                               const RegularMeshParameters &parameters)
     {
       std::vector<LatticeNode> needed;
       const auto               add = [&](const std::int64_t begin,
@@ -155,14 +157,14 @@ namespace NMM
       };
       if (parameters.whole_box)
       {
-        for (std::int64_t j = box.lower[1]; j < box.upper[1]; ++j)
-          add(box.lower[0], box.upper[0], j);
+        for (std::int64_t j = 0; j < lattice.n[1]; ++j)
+          add(0, lattice.n[0], j);
         return needed;
       }
       const auto near_curves =
-        find_near_curves(physical_mesh, lattice, parameters.cell_size, box);
+        find_near_curves(physical_mesh, lattice, parameters.cell_size);
       std::vector<Gap> gaps, gaps_of_last_row;
-      for (std::int64_t j = box.lower[1]; j < box.upper[1]; ++j)
+      for (std::int64_t j = 0; j < lattice.n[1]; ++j)
       {
         // No curve lies between parallelograms of gaps that have a common side, so that one
         // point decides for all of them.
@@ -179,7 +181,7 @@ namespace NMM
                              lattice.node(begin, j) +
                                0.5 * (lattice.a + lattice.b));
         };
-        std::int64_t begin   = box.lower[0];
+        std::int64_t begin   = 0;
         const auto   add_gap = [&](const std::int64_t end) {
           if (begin == end)
             return;
@@ -188,28 +190,16 @@ namespace NMM
             add(begin, end, j);
         };
         gaps.clear();
-        for (const std::int64_t i : near_curves[j - box.lower[1]])
+        for (const std::int64_t i : near_curves[j])
         {
           add_gap(i);
           add(i, i + 1, j);
           begin = i + 1;
         }
-        add_gap(box.upper[0]);
+        add_gap(lattice.n[0]);
         std::swap(gaps, gaps_of_last_row);
       }
       return needed;
-    }
-
-
-    std::vector<LatticeNode>
-    find_needed_parallelograms(const PhysicalMesh          &physical_mesh,
-                               const Lattice               &lattice,
-                               const RegularMeshParameters &parameters)
-    {
-      return find_needed_parallelograms(physical_mesh,
-                                        lattice,
-                                        parameters,
-                                        {{{0, 0}}, lattice.n});
     }
   } // namespace internal
 } // namespace NMM

@@ -65,30 +65,6 @@ namespace NMM
     make_lattice(const dealii::BoundingBox<2> &box,
                  const RegularMeshParameters  &parameters);
 
-    /// The parallelograms (i, j) with lower <= (i, j) < upper.
-    struct LatticeBox
-    {
-      LatticeNode lower, upper;
-
-      bool
-      contains(const LatticeNode &x) const
-      {
-        return lower[0] <= x[0] && x[0] < upper[0] && lower[1] <= x[1] &&
-               x[1] < upper[1];
-      }
-    };
-
-    /**
-     * Parallelograms (i, j) of @p box that can touch the solid, row by row; all of them if the
-     * parameters ask for the whole box. Whether a parallelogram is included does not depend on @p
-     * box.
-     */
-    std::vector<LatticeNode>
-    find_needed_parallelograms(const PhysicalMesh          &physical_mesh,
-                               const Lattice               &lattice,
-                               const RegularMeshParameters &parameters,
-                               const LatticeBox            &box);
-
     /**
      * Parallelograms (i, j) that can touch the solid, row by row; all of them
      * if the parameters ask for the whole box.

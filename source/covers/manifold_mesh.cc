@@ -1,10 +1,8 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/covers/manifold_mesh.h>
 #include <nmm/covers/point_location.h>
-#include <nmm/covers/rank_cells.h>
 
 #include "cutting.h"
-#include "element_exchange.h"
 #include "manifold_mesh_data.h"
 #include "parts_to_cut.h"
 #include <algorithm>
@@ -50,7 +48,6 @@ namespace NMM
     const double                  scale =
       internal::largest_coordinate(physical_mesh.bounding_box());
 
-    const RankCells              *rank_cells = mathematical_mesh.rank_cells();
     std::vector<unsigned char>    state(mathematical_mesh.n_cells(),
                                      internal::CellState::untouched);
     const internal::CellNeighbors neighbors =
@@ -63,18 +60,9 @@ namespace NMM
     {
       const internal::NearEdges near = internal::find_near_edges(part, scale);
       for (unsigned int c = part.cells.first; c < part.cells.second; ++c)
-        data->n_cells_cut_exactly +=
-          near[c - part.cells.first].size() > 0 &&
-          (rank_cells == nullptr ||
-           rank_cells->cell_to_owner[c] == rank_cells->rank);
+        data->n_cells_cut_exactly += near[c - part.cells.first].size() > 0;
       internal::cut(part, neighbors, near, state, cutting);
     }
-    if (mathematical_mesh.rank_cells() != nullptr)
-      internal::label_far_cells(mathematical_mesh,
-                                physical_edges,
-                                n_regions,
-                                state,
-                                cutting.cell_region);
     if (mathematical_mesh.n_parts() > 1 && !region_to_part.empty())
       internal::match_parts(physical_edges, region_to_part, cutting);
 
@@ -83,9 +71,6 @@ namespace NMM
     data->take_edges(cutting, exact_to_element);
     data->curve_sets = physical_edges.curve_sets();
     data->make_links(cutting, state, exact_to_element);
-    if (mathematical_mesh.rank_cells() != nullptr)
-      data->exchange = std::make_unique<internal::ElementExchange>(
-        *this, *mathematical_mesh.rank_cells());
   }
 
 
@@ -253,13 +238,6 @@ namespace NMM
   }
 
 
-  std::pair<unsigned int, unsigned int>
-  ManifoldMesh::owned_elements() const
-  {
-    return data->owned_elements;
-  }
-
-
   Point<2>
   ManifoldMesh::reference_point(const unsigned int element) const
   {
@@ -275,13 +253,6 @@ namespace NMM
     for (const ElementEdge &edge : boundary)
       sum += edge.start;
     return Point<2>(sum / static_cast<double>(boundary.size()));
-  }
-
-
-  const internal::ElementExchange *
-  ManifoldMesh::exchange() const
-  {
-    return data->exchange.get();
   }
 
 
@@ -316,22 +287,6 @@ namespace NMM
 
   unsigned int
   ManifoldMesh::find_element(const Point<2> &x) const
-  {
-    return find_element(x, {0, n_elements()});
-  }
-
-
-  unsigned int
-  ManifoldMesh::find_owned_element(const Point<2> &x) const
-  {
-    return find_element(x, data->owned_elements);
-  }
-
-
-  unsigned int
-  ManifoldMesh::find_element(
-    const Point<2>                              &x,
-    const std::pair<unsigned int, unsigned int> &elements) const
   {
     const MathematicalMesh &mesh = *data->mathematical_mesh;
     std::call_once(data->tree_made, [&]() {
@@ -372,8 +327,6 @@ namespace NMM
         continue;
       for (const unsigned int e : cell_elements(c))
       {
-        if (e < elements.first || e >= elements.second)
-          continue;
         const ElementEdges boundary = edges(e);
         if (is_whole(e) || is_inside(boundary, x))
           return e;

@@ -6,7 +6,6 @@
 #include <nmm/covers/manifold_mesh.h>
 
 #include "cutting.h"
-#include "element_exchange.h"
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <memory>
@@ -54,9 +53,6 @@ namespace NMM
     std::vector<Link>                      links;
     std::vector<std::vector<unsigned int>> curve_sets;
     unsigned int                           n_cells_cut_exactly = 0;
-
-    std::pair<unsigned int, unsigned int>            owned_elements;
-    std::unique_ptr<const internal::ElementExchange> exchange;
 
     mutable std::once_flag                      tree_made;
     mutable std::unique_ptr<internal::CellTree> cell_tree;

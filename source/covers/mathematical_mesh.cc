@@ -1,6 +1,5 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/covers/mathematical_mesh.h>
-#include <nmm/covers/rank_cells.h>
 
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/mapping_fe.h>
@@ -20,7 +19,6 @@ namespace NMM
     FE_SimplexP<2>                    fe;
     MappingFE<2>                      mapping;
     DoFHandler<2>                     dof_handler;
-    std::unique_ptr<const RankCells>  rank_cells;
 
     std::vector<Point<2>>                    vertices;
     std::vector<std::array<unsigned int, 3>> cell_vertices;
@@ -50,11 +48,6 @@ namespace NMM
 
     void
     fill_edges();
-
-    /// Number the covers by vertices and edges, if deal.II has no numbers for all cells that this
-    /// rank holds.
-    void
-    number_covers_locally();
   };
 
 
@@ -86,8 +79,7 @@ namespace NMM
     vertices                   = triangulation->get_vertices();
     cell_vertices.resize(n_cells);
     cell_covers.resize(n_cells * n_local);
-    if (rank_cells == nullptr)
-      cover_nodes.resize(dof_handler.n_dofs());
+    cover_nodes.resize(dof_handler.n_dofs());
 
     std::vector<types::global_dof_index> dofs(n_local);
     unsigned int                         c = 0;
@@ -107,9 +99,8 @@ namespace NMM
                              to_string(vertices[cell_vertices[c][0]]),
                              "number its corners counter-clockwise"));
 
-      if (rank_cells == nullptr)
-        cell->get_dof_indices(dofs);
-      for (unsigned int i = 0; i < n_local && rank_cells == nullptr; ++i)
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < n_local; ++i)
       {
         cell_covers[c * n_local + i] = dofs[i];
         cover_nodes[dofs[i]] =
@@ -159,49 +150,21 @@ namespace NMM
   }
 
 
-  void
-  MathematicalMesh::Data::number_covers_locally()
-  {
-    const unsigned int n_local = fe.n_dofs_per_cell();
-    cover_nodes                = vertices;
-    if (n_local > 3)
-      for (const Edge &edge : edges)
-        cover_nodes.push_back(Point<2>(
-          0.5 * (vertices[edge.vertices[0]] + vertices[edge.vertices[1]])));
-    for (unsigned int c = 0; c < cell_vertices.size(); ++c)
-      for (unsigned int i = 0; i < n_local; ++i)
-        cell_covers[c * n_local + i] =
-          i < 3 ? cell_vertices[c][i] : vertices.size() + cell_edges[c][i - 3];
-  }
-
-
   MathematicalMesh::MathematicalMesh(
     std::unique_ptr<Triangulation<2>> triangulation,
     const unsigned int                degree)
-    : MathematicalMesh(std::move(triangulation), degree, nullptr)
-  {
-  }
-
-
-  MathematicalMesh::MathematicalMesh(
-    std::unique_ptr<Triangulation<2>> triangulation,
-    const unsigned int                degree,
-    std::unique_ptr<const RankCells>  rank_cells)
   {
     AssertThrow(degree == 1 || degree == 2,
                 InputError("degree " + std::to_string(degree) +
                              " of the weight functions is not available",
                            "",
                            "choose 1 (first-order method) or 2"));
-    data             = std::make_unique<Data>(std::move(triangulation), degree);
-    data->rank_cells = std::move(rank_cells);
+    data = std::make_unique<Data>(std::move(triangulation), degree);
     data->check_triangulation();
     data->dof_handler.reinit(*data->triangulation);
     data->dof_handler.distribute_dofs(data->fe);
     data->fill_cells();
     data->fill_edges();
-    if (data->rank_cells != nullptr)
-      data->number_covers_locally();
     data->part_to_first_cell = {0, n_cells()};
   }
 
@@ -283,13 +246,6 @@ namespace NMM
   MathematicalMesh::n_covers_per_cell() const
   {
     return data->fe.n_dofs_per_cell();
-  }
-
-
-  const RankCells *
-  MathematicalMesh::rank_cells() const
-  {
-    return data->rank_cells.get();
   }
 
 

@@ -3,7 +3,6 @@
 #include <nmm/covers/element_support.h>
 #include <nmm/covers/own_meshes.h>
 #include <nmm/covers/point_location.h>
-#include <nmm/covers/rank_cells.h>
 
 #include "cutting.h"
 #include "fitted_mesh.h"
@@ -59,15 +58,6 @@ namespace NMM
                     element_support(manifold_mesh, e),
                     mesh,
                     cell);
-      }
-      if (const RankCells *rank_cells = mesh.rank_cells())
-      {
-        std::vector<double> numbers;
-        for (const Filling &filling : fillings)
-          numbers.insert(numbers.end(), {filling.best, filling.cell_size});
-        Utilities::MPI::max(numbers, rank_cells->communicator, numbers);
-        for (unsigned int r = 0; r < fillings.size(); ++r)
-          fillings[r] = {numbers[2 * r], numbers[2 * r + 1]};
       }
       return fillings;
     }
@@ -419,15 +409,6 @@ namespace NMM
         needy.push_back(r);
     if (needy.empty())
       return result;
-    AssertThrow(result.mathematical_mesh->rank_cells() == nullptr,
-                InputError("regions need or are given mathematical meshes of "
-                           "their own, " +
-                             std::to_string(needy.size()) +
-                             " of them, which a distributed mesh cannot have",
-                           to_string(
-                             physical_mesh.regions()[needy.front()].inside),
-                           "let all ranks hold all of the mesh, choose smaller "
-                           "cells, or 'Covers/Own meshes' = never"));
 
     check_memory(make_fitter(), needy, choices, parameters);
     std::vector<MeshPart>    parts(1);

@@ -1,8 +1,7 @@
 #ifndef nmm_source_covers_parts_to_cut_h
 #define nmm_source_covers_parts_to_cut_h
 
-// Private: the parts of the mathematical mesh with their curves, and the regions of cells that are
-// not cut.
+// Private: the parts of the mathematical mesh with their curves.
 
 #include "cutting.h"
 #include "physical_edges.h"
@@ -26,18 +25,6 @@ namespace NMM
     /// The physical edges near each cell of a part; see largest_coordinate() for @p scale.
     NearEdges
     find_near_edges(const PartToCut &part, double scale);
-
-    /**
-     * Set the regions of untouched cells of a distributed mesh that touched cells do not determine.
-     * No curve runs through any cell of such a connected set, so that one point decides for all of
-     * them.
-     */
-    void
-    label_far_cells(const MathematicalMesh           &mesh,
-                    const PhysicalEdges              &physical_edges,
-                    unsigned int                      n_regions,
-                    const std::vector<unsigned char> &state,
-                    std::vector<unsigned int>        &cell_region);
   } // namespace internal
 } // namespace NMM
 

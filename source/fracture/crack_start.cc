@@ -264,7 +264,7 @@ namespace NMM
         {
           const double       root = rule.point(q)[0];
           const Point<2>     y    = x + root * root * length * direction;
-          const unsigned int e    = mesh.find_owned_element(y);
+          const unsigned int e    = mesh.find_element(y);
           if (e == invalid_index || mesh.block(e) != mesh.block(element))
             return std::nullopt;
           mean +=

@@ -508,23 +508,17 @@ namespace NMM
       void
       find_displacement_of_tip()
       {
-        // Where all ranks hold the whole mesh, each knows the displacement of its own elements only.
-        const unsigned int element = mesh.find_owned_element(tip.point);
+        // Each rank knows the displacement of its own elements only.
+        const unsigned int element = mesh.find_element(tip.point);
         const auto [first, last]   = covers.locally_owned_elements();
-        unsigned int n_found       = 0;
         if (element >= first && element < last)
-        {
-          n_found = 1;
           displacement_of_tip =
             displacement(element,
                          mesh.mathematical_mesh().real_to_reference(
                            mesh.cell(element), tip.point));
-        }
-        n_found = dealii::Utilities::MPI::sum(n_found, covers.communicator());
         displacement_of_tip =
           dealii::Utilities::MPI::sum(displacement_of_tip,
                                       covers.communicator());
-        displacement_of_tip /= std::max(1u, n_found);
       }
 
 

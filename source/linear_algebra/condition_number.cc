@@ -195,14 +195,7 @@ namespace NMM
       result.smallest = 1. / smallest.value;
       result.weakest_cover =
         largest_entry(smallest.vector, covers.communicator());
-      // only the owner of a cover is certain to know its node
-      if (covers.locally_owned_covers().is_element(result.weakest_cover))
-        result.weakest_node =
-          covers.node(covers.local_cover(result.weakest_cover));
-      for (unsigned int d = 0; d < 2; ++d)
-        result.weakest_node[d] =
-          dealii::Utilities::MPI::sum(result.weakest_node[d],
-                                      covers.communicator());
+      result.weakest_node = covers.node(result.weakest_cover);
     }
     return result;
   }

@@ -84,13 +84,13 @@ namespace NMM
       : covers(&covers)
       , constraints(&constraints)
       , is_constrained(covers.n_covers())
-      , pattern(covers.n_global_covers(),
-                covers.n_global_covers(),
+      , pattern(covers.n_covers(),
+                covers.n_covers(),
                 covers.locally_relevant_covers())
       , n_rows(covers.locally_owned_covers().n_elements())
     {
       for (const auto &line : constraints.get_lines())
-        is_constrained[covers.local_cover(line.index / 2)] = true;
+        is_constrained[line.index / 2] = true;
       const auto [first, last] = covers.locally_owned_elements();
       for (unsigned int e = first; e < last; ++e)
         couple(covers.covers(e));
@@ -128,10 +128,10 @@ namespace NMM
           expanded.push_back(k);
         else
           for (unsigned int c = 0; c < 2; ++c)
-            if (const auto *entries = constraints->get_constraint_entries(
-                  2 * covers->global_cover(k) + c))
+            if (const auto *entries =
+                  constraints->get_constraint_entries(2 * k + c))
               for (const auto &entry : *entries)
-                expanded.push_back(covers->local_cover(entry.first / 2));
+                expanded.push_back(entry.first / 2);
             else
               expanded.push_back(k);
       std::sort(expanded.begin(), expanded.end());
@@ -145,9 +145,7 @@ namespace NMM
       const dealii::ArrayView<const unsigned int> coupled)
     {
       expand(coupled);
-      global_columns.clear();
-      for (const unsigned int k : expanded)
-        global_columns.push_back(covers->global_cover(k));
+      global_columns.assign(expanded.begin(), expanded.end());
       for (const auto row : global_columns)
         pattern.add_entries(row,
                             global_columns.begin(),
@@ -185,8 +183,7 @@ namespace NMM
       cover_to_column.assign(covers->n_covers(), invalid_index);
       for (unsigned int k = 0; k < covers->n_covers(); ++k)
       {
-        const int column =
-          graph.ColMap().LID(static_cast<int>(2 * covers->global_cover(k)));
+        const int column = graph.ColMap().LID(static_cast<int>(2 * k));
         if (column >= 0)
           cover_to_column[k] = column / 2;
       }
@@ -252,13 +249,11 @@ namespace NMM
       for (unsigned int i = 0; i < n; ++i)
       {
         const unsigned int k       = of_covers[i / 2];
-        const auto         unknown = 2 * covers->global_cover(k) + i % 2;
+        const unsigned int unknown = 2 * k + i % 2;
         if (const auto *entries = constraints->get_constraint_entries(unknown))
         {
           for (const auto &[j, weight] : *entries)
-            terms.emplace_back(2 * position_of(covers->local_cover(j / 2)) +
-                                 j % 2,
-                               weight);
+            terms.emplace_back(2 * position_of(j / 2) + j % 2, weight);
           if (has_inhomogeneities)
             local_inhomogeneities[i] = constraints->get_inhomogeneity(unknown);
         }
@@ -370,7 +365,7 @@ namespace NMM
       global_columns.clear();
       for (const unsigned int k : of_covers)
         for (unsigned int c = 0; c < 2; ++c)
-          global_columns.push_back(2 * covers->global_cover(k) + c);
+          global_columns.push_back(2 * k + c);
       rhs->add(2, &global_columns[2 * i], values + 2 * i);
       for (unsigned int c = 0; c < 2 && matrix_values != nullptr; ++c)
         matrix->add(global_columns[2 * i + c],

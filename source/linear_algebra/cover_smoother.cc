@@ -146,10 +146,9 @@ namespace NMM
         if (mesh.is_whole(e))
           continue;
         rows.clear();
-        for (const unsigned int k : covers.covers(e))
+        for (const unsigned int cover : covers.covers(e))
         {
-          const unsigned int cover   = covers.global_cover(k);
-          bool               is_free = true;
+          bool is_free = true;
           for (unsigned int c = 0; c < 2; ++c)
             if (const auto *entries =
                   constraints.get_constraint_entries(2 * cover + c))

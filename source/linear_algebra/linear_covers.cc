@@ -36,11 +36,10 @@ namespace NMM
           const auto of_element = covers.covers(e);
           for (unsigned int i = 0; i < 6; ++i)
           {
-            const unsigned int cover = covers.global_cover(of_element[i]);
+            const unsigned int cover = of_element[i];
             if (cover >= first_owned && cover < first_owned + n_owned)
               for (unsigned int j = 0; j < 2; ++j)
-                ends[cover - first_owned][j] =
-                  covers.global_cover(of_element[element_ends[i][j]]);
+                ends[cover - first_owned][j] = of_element[element_ends[i][j]];
           }
         }
         return ends;

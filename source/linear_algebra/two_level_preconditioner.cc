@@ -25,8 +25,7 @@ namespace NMM
       unsigned int        i = 0;
       for (const unsigned int k : covers)
       {
-        const dealii::Tensor<1, 2> d =
-          (cover_system.node(cover_system.local_cover(k)) - center) / size;
+        const dealii::Tensor<1, 2> d = (cover_system.node(k) - center) / size;
         for (unsigned int c = 0; c < 2; ++c, ++i)
           if (!constraints.is_constrained(2 * k + c))
           {

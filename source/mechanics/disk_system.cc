@@ -91,7 +91,7 @@ namespace NMM
             return;
           const auto pair = covers_of_pair(*covers, e, edge.neighbor);
           for (unsigned int i = 0; i < 4 * n_per_cell; ++i)
-            unknowns[i] = 2 * covers->global_cover(pair[i / 2]) + i % 2;
+            unknowns[i] = 2 * pair[i / 2] + i % 2;
           for (unsigned int j = 0; j < m; ++j)
           {
             constraints->distribute_local_to_global(local.couplings[j],

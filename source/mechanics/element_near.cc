@@ -1,7 +1,6 @@
 #include <nmm/base/exceptions.h>
 
 #include <cmath>
-#include <covers/find_on_ranks.h>
 #include <mechanics/element_near.h>
 
 namespace NMM
@@ -13,7 +12,7 @@ namespace NMM
                       const dealii::Point<2> &point,
                       const std::string      &what)
     {
-      unsigned int element = find_on_ranks(mesh, point);
+      unsigned int element = mesh.find_element(point);
       const auto  &box =
         mesh.physical_mesh().bounding_box().get_boundary_points();
       const double size = box.first.distance(box.second);
@@ -21,10 +20,9 @@ namespace NMM
         for (unsigned int k = 0; k < 8 && element == invalid_index; ++k)
         {
           const double angle = (k + 0.5) * dealii::numbers::PI_4;
-          element            = find_on_ranks(mesh,
-                                  point + distance * dealii::Tensor<1, 2>(
-                                                       {std::cos(angle),
-                                                                   std::sin(angle)}));
+          element            = mesh.find_element(
+            point + distance *
+                      dealii::Tensor<1, 2>({std::cos(angle), std::sin(angle)}));
         }
       AssertThrow(element != invalid_index,
                   InputError(what + " lies outside the solid",

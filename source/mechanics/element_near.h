@@ -9,9 +9,8 @@ namespace NMM
 {
   namespace internal
   {
-    /// Element of a point of the solid, with the values of find_on_ranks(). If the point is not
-    /// found, because rounding has moved it from the boundary to the outside, points very close to
-    /// it are tried. Collective.
+    /// Element of a point of the solid. If the point is not found, because rounding has moved it
+    /// from the boundary to the outside, points very close to it are tried.
     /// @throws InputError that begins with @p what if no element contains the point.
     unsigned int
     find_element_near(const ManifoldMesh     &mesh,

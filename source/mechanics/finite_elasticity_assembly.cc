@@ -23,11 +23,6 @@ namespace NMM
     checked_mesh(const CoverSystem &covers, const ElasticityProblem &problem)
     {
       const ManifoldMesh &mesh = covers.manifold_mesh();
-      AssertThrow(mesh.exchange() == nullptr,
-                  InputError("a distributed mathematical mesh is for linear "
-                             "static problems only",
-                             "a nonlinear analysis",
-                             "use make_regular_mesh()"));
       problem.check(mesh.physical_mesh());
       return mesh;
     }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <base/disjoint_sets.h>
 #include <cmath>
-#include <covers/element_exchange.h>
 #include <mechanics/floating_blocks.h>
 #include <mechanics/trace_constant.h>
 #include <vector>
@@ -36,48 +35,6 @@ namespace NMM
       }
 
 
-      /**
-       * Join the pieces of all ranks of a distributed mesh. Pieces of different ranks
-       * are the same piece if they have a ghost element in common; all ranks join all
-       * such pairs. Returns the number of pieces.
-       */
-      unsigned int
-      join_pieces_of_ranks(const ElementExchange     &exchange,
-                           unsigned int               n_pieces,
-                           std::vector<unsigned int> &element_to_piece)
-      {
-        unsigned int first = 0;
-        MPI_Exscan(
-          &n_pieces, &first, 1, MPI_UNSIGNED, MPI_SUM, exchange.communicator());
-        if (dealii::Utilities::MPI::this_mpi_process(exchange.communicator()) ==
-            0)
-          first = 0;
-        n_pieces =
-          dealii::Utilities::MPI::sum(n_pieces, exchange.communicator());
-        for (unsigned int &piece : element_to_piece)
-          piece += first;
-        std::vector<unsigned int> of_owner = element_to_piece;
-        exchange.update_ghosts(of_owner, 1);
-        std::vector<std::pair<unsigned int, unsigned int>> same;
-        for (unsigned int e = 0; e < of_owner.size(); ++e)
-          if (of_owner[e] != element_to_piece[e])
-            same.emplace_back(of_owner[e], element_to_piece[e]);
-        std::sort(same.begin(), same.end());
-        same.erase(std::unique(same.begin(), same.end()), same.end());
-
-        DisjointSets pieces(n_pieces);
-        for (const auto &of_rank :
-             dealii::Utilities::MPI::all_gather(exchange.communicator(), same))
-          for (const auto &[a, b] : of_rank)
-            pieces.join(a, b);
-        std::vector<unsigned int> piece_to_joined;
-        n_pieces = pieces.number(piece_to_joined);
-        for (unsigned int &piece : element_to_piece)
-          piece = piece_to_joined[piece];
-        return n_pieces;
-      }
-
-
       /// Area, extent and region of a connected piece.
       struct Piece
       {
@@ -101,43 +58,6 @@ namespace NMM
       };
 
 
-      void
-      merge_pieces_of_ranks(const MPI_Comm      communicator,
-                            std::vector<Piece> &pieces)
-      {
-        using namespace dealii::Utilities::MPI;
-        std::vector<double> areas, extremes;
-        for (const Piece &piece : pieces)
-        {
-          areas.push_back(piece.area);
-          for (unsigned int d = 0; d < 2; ++d)
-          {
-            extremes.push_back(-piece.lower[d]);
-            extremes.push_back(piece.upper[d]);
-          }
-          extremes.push_back(piece.largest_area);
-        }
-        sum(areas, communicator, areas);
-        max(extremes, communicator, extremes);
-        std::vector<unsigned int> regions;
-        for (unsigned int p = 0; p < pieces.size(); ++p)
-          regions.push_back(pieces[p].largest_area == extremes[5 * p + 4]
-                              ? pieces[p].region
-                              : invalid_index);
-        min(regions, communicator, regions);
-        for (unsigned int p = 0; p < pieces.size(); ++p)
-        {
-          pieces[p].area = areas[p];
-          for (unsigned int d = 0; d < 2; ++d)
-          {
-            pieces[p].lower[d] = -extremes[5 * p + 2 * d];
-            pieces[p].upper[d] = extremes[5 * p + 2 * d + 1];
-          }
-          pieces[p].region = regions[p];
-        }
-      }
-
-
       std::vector<Piece>
       measure_pieces(const ManifoldMesh              &mesh,
                      const std::vector<unsigned int> &element_to_piece,
@@ -145,8 +65,7 @@ namespace NMM
       {
         const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
         std::vector<Piece>      pieces(n_pieces);
-        const auto [first, end] = mesh.owned_elements();
-        for (unsigned int e = first; e < end; ++e)
+        for (unsigned int e = 0; e < mesh.n_elements(); ++e)
         {
           Piece       &piece = pieces[element_to_piece[e]];
           const double area  = mesh.area(e);
@@ -165,8 +84,6 @@ namespace NMM
               piece.upper[d] = std::max(piece.upper[d], x);
             }
         }
-        if (mesh.exchange() != nullptr)
-          merge_pieces_of_ranks(mesh.exchange()->communicator(), pieces);
         return pieces;
       }
 
@@ -273,10 +190,8 @@ namespace NMM
     {
       const ManifoldMesh       &mesh = covers.manifold_mesh();
       std::vector<unsigned int> element_to_piece;
-      unsigned int n_pieces = find_pieces(mesh, conditions, element_to_piece);
-      if (mesh.exchange() != nullptr)
-        n_pieces =
-          join_pieces_of_ranks(*mesh.exchange(), n_pieces, element_to_piece);
+      const unsigned int        n_pieces =
+        find_pieces(mesh, conditions, element_to_piece);
       const std::vector<Piece> pieces =
         measure_pieces(mesh, element_to_piece, n_pieces);
 

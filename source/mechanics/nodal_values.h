@@ -30,7 +30,7 @@ namespace NMM
       }
       for (const auto cover : covers.locally_relevant_covers())
         for (unsigned int c = 0; c < 2; ++c)
-          nodal[covers.local_cover(cover)][c] = vector(2 * cover + c);
+          nodal[cover][c] = vector(2 * cover + c);
     }
 
 

@@ -149,14 +149,13 @@ namespace NMM
   namespace
   {
     /// Collect the values of all covers on every rank, because patches extend beyond the locally
-    /// relevant covers. On a distributed mesh the covers that the rank stores are sufficient.
+    /// relevant covers.
     std::vector<dealii::Tensor<1, 2>>
     gather_values(const DisplacementField &field)
     {
       const CoverSystem                &covers = field.cover_system();
       std::vector<dealii::Tensor<1, 2>> values(covers.n_covers());
-      if (covers.manifold_mesh().exchange() != nullptr ||
-          dealii::Utilities::MPI::n_mpi_processes(covers.communicator()) == 1)
+      if (dealii::Utilities::MPI::n_mpi_processes(covers.communicator()) == 1)
         for (unsigned int k = 0; k < covers.n_covers(); ++k)
           values[k] = field.nodal_value(k);
       else

@@ -164,11 +164,9 @@ namespace NMM
       // all covers on which a constrained cover depends belong to the root
       std::vector<unsigned int> needed;
       for (const unsigned int k : covers->covers(element))
-        if (needed.empty() &&
-            constraints->is_constrained(2 * covers->global_cover(k)))
-          for (const auto &entry : *constraints->get_constraint_entries(
-                 2 * covers->global_cover(k)))
-            needed.push_back(covers->local_cover(entry.first / 2));
+        if (needed.empty() && constraints->is_constrained(2 * k))
+          for (const auto &entry : *constraints->get_constraint_entries(2 * k))
+            needed.push_back(entry.first / 2);
       if (needed.empty())
         return invalid_index;
 
@@ -206,12 +204,12 @@ namespace NMM
       for (const unsigned int k : covers->covers(element))
         if (!is_of_root(k))
         {
-          const unsigned int unknown = 2 * covers->global_cover(k);
+          const unsigned int unknown = 2 * k;
           if (!constraints->is_constrained(unknown))
             return false;
           for (const auto &entry :
                *constraints->get_constraint_entries(unknown))
-            if (!is_of_root(covers->local_cover(entry.first / 2)))
+            if (!is_of_root(entry.first / 2))
               return false;
         }
       return true;

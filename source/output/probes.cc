@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <covers/find_on_ranks.h>
 #include <iomanip>
 
 namespace NMM
@@ -52,14 +51,13 @@ namespace NMM
                         const dealii::Point<2> &x,
                         const double            tolerance)
     {
-      unsigned int element = internal::find_on_ranks(mesh, x);
+      unsigned int element = mesh.find_element(x);
       for (unsigned int k = 0; k < 8 && element == invalid_index; ++k)
       {
         const double angle = k * dealii::numbers::PI_4;
-        element            = internal::find_on_ranks(mesh,
-                                          x + tolerance * dealii::Tensor<1, 2>(
-                                                            {std::cos(angle),
-                                                                        std::sin(angle)}));
+        element            = mesh.find_element(
+          x +
+          tolerance * dealii::Tensor<1, 2>({std::cos(angle), std::sin(angle)}));
       }
       return element;
     }

@@ -1,7 +1,6 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/input_file.h>
 #include <nmm/base/memory.h>
-#include <nmm/covers/rank_cells.h>
 #include <nmm/fracture/tip_grading.h>
 #include <nmm/scene/parameter_tree.h>
 #include <nmm/scene/scene.h>
@@ -104,14 +103,11 @@ namespace NMM
       const double of_triangle =
         h * h *
         (mesh.pattern == MeshPattern::equilateral ? 0.25 * std::sqrt(3.) : 0.5);
-      const double n_cells = area / of_triangle;
-      double       needed  = estimate_memory(parameters, n_cells);
-      if (parameters.covers.is_distributed)
-        needed /= dealii::Utilities::MPI::n_mpi_processes(communicator);
+      const double       n_cells = area / of_triangle;
       std::ostringstream number;
       number.precision(2);
       number << n_cells << " cells";
-      require_memory(needed,
+      require_memory(estimate_memory(parameters, n_cells),
                      available_memory(communicator),
                      number.str(),
                      "parameter 'Mathematical mesh/Cell size'",
@@ -406,11 +402,6 @@ namespace NMM
         largest_extent(physical_mesh) * (is_alone ? 1. / n_across : 1.5);
     }
     check_memory(scene_parameters, regular, physical_mesh, communicator);
-    if (scene_parameters.covers.is_distributed)
-      return make_distributed_mesh(physical_mesh,
-                                   regular,
-                                   parameters.degree,
-                                   communicator);
     return make_regular_mesh(physical_mesh, regular, parameters.degree);
   }
 

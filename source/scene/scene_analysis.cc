@@ -1,6 +1,5 @@
 #include <nmm/base/program.h>
 #include <nmm/covers/own_meshes.h>
-#include <nmm/covers/rank_cells.h>
 #include <nmm/mechanics/load_values.h>
 #include <nmm/output/vtu.h>
 
@@ -262,29 +261,15 @@ namespace NMM
                                 }));
       add_block_counts();
       summary.add("own_meshes", mathematical_mesh->n_parts() - 1);
-      // Counts are those of all ranks, for replicated and distributed meshes.
-      const RankCells *rank_cells = mathematical_mesh->rank_cells();
-      unsigned int     n_cut      = manifold_mesh->n_cells_cut_exactly(),
-                   n_aggregated   = 0;
-      for (const auto &[cover, root] : aggregation.cover_to_root)
-        n_aggregated += covers->locally_owned_covers().is_element(
-          covers->global_cover(cover));
-      if (rank_cells != nullptr)
-        n_cut = MPI::sum(n_cut, communicator);
-      summary.add("cells",
-                  rank_cells == nullptr ? mathematical_mesh->n_cells()
-                                        : rank_cells->n_global_cells);
-      summary.add("cells_cut_exactly", n_cut);
+      summary.add("cells", mathematical_mesh->n_cells());
+      summary.add("cells_cut_exactly", manifold_mesh->n_cells_cut_exactly());
       summary.add("mathematical_covers",
-                  mathematical_mesh->dof_handler().n_dofs());
-      summary.add("manifold_elements", MPI::sum(last - first, communicator));
-      summary.add("elements_held",
-                  MPI::max(manifold_mesh->n_elements(), communicator));
-      summary.add("physical_covers", covers->n_global_covers());
-      summary.add("covers_held", MPI::max(covers->n_covers(), communicator));
-      n_aggregated = MPI::sum(n_aggregated, communicator);
-      summary.add("aggregated_covers", n_aggregated);
-      double n_unknowns = 2. * (covers->n_global_covers() - n_aggregated);
+                  mathematical_mesh->n_mathematical_covers());
+      summary.add("manifold_elements", manifold_mesh->n_elements());
+      summary.add("physical_covers", covers->n_covers());
+      summary.add("aggregated_covers", aggregation.cover_to_root.size());
+      double n_unknowns =
+        2. * (covers->n_covers() - aggregation.cover_to_root.size());
       for (const auto &cover : tip_covers)
         n_unknowns += cover->n_functions();
       summary.add("unknowns", n_unknowns);

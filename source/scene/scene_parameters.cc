@@ -371,7 +371,6 @@ namespace NMM
     check_contact();
     check_analysis();
     check_restraints();
-    check_distribution();
     check_fracture();
   }
 
@@ -406,43 +405,6 @@ namespace NMM
 
 
   void
-  SceneParameters::check_distribution() const
-  {
-    if (!covers.is_distributed)
-      return;
-    const std::string where = "parameter 'Covers/Distribution'";
-    const auto        check = [&](const bool is_fine, const std::string &what) {
-      AssertThrow(
-        is_fine,
-        InputError(
-          what +
-            " cannot have a mathematical mesh that is distributed among ranks",
-          where,
-          "set it to replicated: all ranks hold all of the mesh"));
-    };
-    check(model.analysis == Analysis::statics,
-          "a " + to_string(model.analysis) + " analysis");
-    check(model.kinematics == Kinematics::small,
-          to_string(model.kinematics) + " kinematics");
-    check(!contact.is_present(), "a scene with contact");
-    check(!has_inelastic_material(), "a scene with inelastic materials");
-    check(mathematical_mesh.type == MathematicalMeshParameters::Type::regular,
-          "a scene whose mesh is not of type regular");
-    const auto has_own_mesh = [](const RegionMesh &mesh) {
-      return mesh.kind == RegionMesh::Kind::own ||
-             mesh.kind == RegionMesh::Kind::automatic;
-    };
-    check(!has_own_mesh(covers.mesh) &&
-            std::none_of(covers.blocks.begin(),
-                         covers.blocks.end(),
-                         [&](const BlockMeshParameters &block) {
-                           return has_own_mesh(block.mesh);
-                         }),
-          "a scene with meshes of blocks or regions");
-  }
-
-
-  void
   SceneParameters::check_fracture() const
   {
     fracture.check();
@@ -456,9 +418,9 @@ namespace NMM
     check(
       !fracture.grades_mesh() ||
         (mathematical_mesh.type != MathematicalMeshParameters::Type::gmsh &&
-         !covers.is_distributed && mathematical_mesh.regular.cell_size > 0.),
-      "only a regular or graded mesh of a given cell size, of which all ranks "
-      "hold all, can be graded towards crack tips",
+         mathematical_mesh.regular.cell_size > 0.),
+      "only a regular or graded mesh of a given cell size can be graded "
+      "towards crack tips",
       "Tips",
       "set 'Mathematical mesh/Type = regular' and 'Cell size', or let tips be "
       "'as meshed'");

@@ -31,10 +31,6 @@ namespace NMM
                                            {"automatic", Kind::automatic}};
 
 
-    const Words<bool> distributions = {{"replicated", false},
-                                       {"distributed", true}};
-
-
     bool
     uses_number(const Kind kind)
     {
@@ -107,15 +103,6 @@ namespace NMM
                 "the longer side of the smallest rectangle around it; 1: a "
                 "single six-node triangle. automatic needs it; 0: cells as "
                 "large as those of the common mesh.");
-    entries.add(
-      "Distribution",
-      is_distributed,
-      distributions,
-      "How several ranks share the mathematical mesh. replicated: all hold and "
-      "cut all of it, and share assembly and solution; distributed: each holds "
-      "and cuts its own cells and five layers around them. The latter is for "
-      "static analyses of small displacements without contact, on meshes of "
-      "type regular and without own meshes.");
     entries.subsections(
       block_names,
       blocks,

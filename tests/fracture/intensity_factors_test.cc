@@ -281,8 +281,8 @@ namespace
       *model.field,
       [&](const Point<2> &x) { return exact.displacement(x); },
       [&](const Point<2> &x) { return e.stress(exact.gradient(x)); });
-    result.n_unknowns = 2 * (model.covers.n_global_covers() -
-                             model.aggregation.cover_to_root.size());
+    result.n_unknowns =
+      2 * (model.covers.n_covers() - model.aggregation.cover_to_root.size());
     return result;
   }
 

@@ -4,7 +4,6 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/own_meshes.h>
-#include <nmm/covers/rank_cells.h>
 #include <nmm/mechanics/displacement_field.h>
 #include <nmm/mechanics/elasticity_problem.h>
 #include <nmm/mechanics/error_norms.h>

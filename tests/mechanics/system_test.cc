@@ -265,7 +265,7 @@ TEST(System, AutomaticSolverMPI)
   EXPECT_TRUE(report.direct);
   EXPECT_EQ(report.n_iterations, 0u);
 
-  parameters.direct_limit = model->covers.n_global_covers();
+  parameters.direct_limit = model->covers.n_covers();
   report                  = model->solve(parameters);
   EXPECT_FALSE(report.direct);
   EXPECT_GT(report.n_iterations, 0u);
@@ -281,7 +281,7 @@ TEST(System, AutomaticSolverMPI)
   for (const auto i : model->covers.locally_owned_dofs(2))
     n_unknowns += !model->constraints.is_constrained(i);
   n_unknowns = dealii::Utilities::MPI::sum(n_unknowns, MPI_COMM_WORLD);
-  ASSERT_LT(n_unknowns, 2 * model->covers.n_global_covers());
+  ASSERT_LT(n_unknowns, 2 * model->covers.n_covers());
   parameters.direct_limit = n_unknowns;
   EXPECT_EQ(model->solve(parameters).n_iterations, 0u);
   parameters.direct_limit = n_unknowns - 1;

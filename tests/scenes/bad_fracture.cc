@@ -38,7 +38,6 @@ namespace
                                          "Materials/rock/Cohesion=1"},
       "Materials/rock/Law=Mohr-Coulomb",
       {"intensity factors", "yield", "elastic"});
-    rejects("Covers/Distribution=distributed", {"graded", "Fracture/Tips"});
     rejects("Geometry/Text=" + square, {"no crack tip", "open joint"});
     rejects("Geometry/Text=" + square +
               "; joint state=closed LINESTRING (0 0.5, 0.5 0.5)",

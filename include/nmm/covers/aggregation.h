@@ -33,15 +33,10 @@ namespace NMM
   /**
    * The *root* of each element: the element itself if its element_support() is at least the
    * threshold, else the nearest such element of the same connected set (breadth-first search over
-   * ManifoldMesh::joined(), three layers of elements at most, ten for slivers on a mesh that is
-   * not distributed). Where there is none, as in long thin arms of a region, the element with the
-   * largest support becomes a root, and so on, because a polynomial that is extended far is worse
-   * than one with little support. Ties up to rounding are decided by position, so that the
-   * result depends neither on the numbering nor on the number of ranks.
-   *
-   * On a distributed mesh the numbers are those of this rank's elements, and invalid_index stands
-   * for an element that it does not hold. Roots of owned elements and of three layers around them
-   * are known.
+   * ManifoldMesh::joined(), three layers of elements at most, ten for slivers). Where there is none,
+   * as in long thin arms of a region, the element with the largest support becomes a root, and so
+   * on, because a polynomial that is extended far is worse than one with little support. Ties up to
+   * rounding are decided by position, so that the result does not depend on the numbering.
    */
   struct ElementRoots
   {
@@ -52,7 +47,6 @@ namespace NMM
   };
 
   /// Find the roots of all elements; @p threshold: least element_support() of a root [-].
-  /// Collective on a distributed mesh.
   ElementRoots
   find_roots(const ManifoldMesh &mesh, double threshold);
 
@@ -74,8 +68,7 @@ namespace NMM
   {
     /// Root element of each element; itself for roots.
     std::vector<unsigned int> element_to_root;
-    /// Constrained covers, ascending, each with its root element. On a distributed mesh
-    /// those of owned elements and of their neighbours.
+    /// Constrained covers, ascending, each with its root element.
     std::vector<std::pair<unsigned int, unsigned int>> cover_to_root;
     /// For each cover, whether it is free, that is, not constrained.
     std::vector<bool> is_free;
@@ -83,7 +76,7 @@ namespace NMM
 
   /**
    * Find the roots and the constrained covers. The relevant covers of @p covers are extended by
-   * those of the roots that this rank needs. Collective.
+   * those of the roots that this rank needs.
    */
   Aggregation
   aggregate(CoverSystem &covers,
@@ -116,8 +109,7 @@ namespace NMM
     std::vector<unsigned int> element_to_root;
   };
 
-  /// Find the pairs of all ranks, or, on a distributed mesh, those of elements that this rank
-  /// holds. Collective on a distributed mesh.
+  /// Find the pairs and the roots.
   GhostPenalty
   make_ghost_penalty(const ManifoldMesh &mesh,
                      double threshold = default_aggregation_threshold);

@@ -26,22 +26,17 @@ namespace NMM
    * numbering, which keeps the bandwidth small. Unknown of component c of cover
    * k: n_components * k + c.
    *
-   * Ownership: an element belongs to the rank that owns its cell; ranks own consecutive ranges of
-   * the element numbering of about equal length. A cover belongs to the lowest rank among its
-   * elements.
-   *
-   * On a distributed mesh a rank knows the covers of the elements it holds, and numbers them from
-   * 0 to n_covers() - 1. Arguments called "cover" are these local numbers; only index sets and
-   * unknowns are global. global_cover() is ascending, and the owned covers are consecutive in both
-   * numberings. On a mesh that is not distributed both numbers of a cover are the same.
+   * Every rank knows all covers. Ownership: ranks own consecutive ranges of the element numbering of
+   * about equal length, which contain all elements of a cell or none. A cover belongs to the lowest
+   * rank among its elements.
    *
    * Lifetime: the manifold mesh must outlive this object.
    */
   class CoverSystem
   {
   public:
-    /// Find the covers of @p manifold_mesh and number them. Collective.
-    /// @throws InputError if the mesh is distributed over another communicator.
+    /// Find the covers of @p manifold_mesh and number them, and divide them among the ranks of
+    /// @p communicator. Not collective.
     CoverSystem(const ManifoldMesh &manifold_mesh, MPI_Comm communicator);
 
     /// The manifold mesh of the constructor.
@@ -52,27 +47,15 @@ namespace NMM
     MPI_Comm
     communicator() const;
 
-    /// Number of covers that this rank knows.
+    /// Number of covers.
     unsigned int
     n_covers() const;
-
-    /// Number of covers of all ranks.
-    unsigned int
-    n_global_covers() const;
-
-    /// Global number of a cover of this rank.
-    unsigned int
-    global_cover(unsigned int cover) const;
-
-    /// Number of a cover on this rank; invalid_index if this rank does not know it.
-    unsigned int
-    local_cover(unsigned int global_cover) const;
 
     /// Physical covers of an element, in the order of the finite element's dofs.
     dealii::ArrayView<const unsigned int>
     covers(unsigned int element) const;
 
-    /// Get the global unknowns of an element with @p n_components unknowns per cover: entry
+    /// Get the unknowns of an element with @p n_components unknowns per cover: entry
     /// n_components * i + c belongs to weight function i, component c.
     void
     get_dof_indices(
@@ -92,24 +75,24 @@ namespace NMM
     std::pair<unsigned int, unsigned int>
     locally_owned_elements() const;
 
-    /// Global numbers of the covers that this rank owns.
+    /// Covers that this rank owns.
     const dealii::IndexSet &
     locally_owned_covers() const;
 
-    /// Global numbers of the covers whose values this rank needs; they include the owned ones.
+    /// Covers whose values this rank needs; they include the owned ones.
     const dealii::IndexSet &
     locally_relevant_covers() const;
 
-    /// Global unknowns of the owned covers, @p n_components for each.
+    /// Unknowns of the owned covers, @p n_components for each.
     dealii::IndexSet
     locally_owned_dofs(unsigned int n_components) const;
 
-    /// Global unknowns of the relevant covers, @p n_components for each.
+    /// Unknowns of the relevant covers, @p n_components for each.
     dealii::IndexSet
     locally_relevant_dofs(unsigned int n_components) const;
 
-    /// Add @p covers (global numbers) to the relevant covers of this rank. Vectors that exist
-    /// already keep their layout.
+    /// Add @p covers to the relevant covers of this rank. Vectors that exist already keep their
+    /// layout.
     void
     make_relevant(std::vector<dealii::types::global_dof_index> covers);
 
@@ -124,21 +107,14 @@ namespace NMM
     void
     distribute();
 
-    /// Number covers globally on a distributed mesh, and locally in the same order.
-    void
-    number_globally();
-
     void
     add_relevant_elements(unsigned int n_layers);
 
-    const ManifoldMesh       *mesh;
-    MPI_Comm                  mpi_communicator;
-    unsigned int              n_per_element;
-    std::vector<unsigned int> element_to_covers;
-    std::vector<unsigned int> cover_to_mathematical;
-    /// Global number of each cover, ascending; empty if both numbers are the same.
-    std::vector<unsigned int>             local_to_global;
-    unsigned int                          n_global = 0;
+    const ManifoldMesh                   *mesh;
+    MPI_Comm                              mpi_communicator;
+    unsigned int                          n_per_element;
+    std::vector<unsigned int>             element_to_covers;
+    std::vector<unsigned int>             cover_to_mathematical;
     std::pair<unsigned int, unsigned int> owned_elements;
     dealii::IndexSet                      owned_covers, relevant_covers;
   };

@@ -17,12 +17,6 @@
 
 namespace NMM
 {
-  namespace internal
-  {
-    // See source/covers/element_exchange.h.
-    class ElementExchange;
-  } // namespace internal
-
   /**
    * One oriented edge of a manifold element's boundary, a straight line or a circular arc; the
    * element lies to its left.
@@ -167,11 +161,6 @@ namespace NMM
    * the same edges, which are divided wherever a mesh edge of either part
    * meets the curve.
    *
-   * If the mathematical mesh is distributed, each rank cuts the cells it holds, with
-   * all curves, and numbers its elements separately: first those of ghost cells of lower
-   * ranks, then its own, then those of higher ranks. Edges and links of elements in the outermost
-   * ghost cells may lack their neighbours.
-   *
    * The constructor must not run in two threads at once: CGAL counts references to exact numbers
    * without locks here, and copies of the physical mesh's arrangement share these numbers.
    *
@@ -198,7 +187,7 @@ namespace NMM
     const PhysicalMesh &
     physical_mesh() const;
 
-    /// Number of elements; on a distributed mesh of those that this rank holds.
+    /// Number of elements.
     unsigned int
     n_elements() const;
 
@@ -296,22 +285,12 @@ namespace NMM
     Links
     joined(unsigned int element) const;
 
-    /// Elements of cells this rank owns, first and past-the-end; all if the mesh
-    /// is not distributed.
-    std::pair<unsigned int, unsigned int>
-    owned_elements() const;
-
     /**
-     * A point that identifies an element among those of its cell, up to rounding and on all ranks
-     * [m]: the mean of its corners, or of the cell's corners for whole elements.
+     * A point that identifies an element among those of its cell, up to rounding [m]: the mean of
+     * its corners, or of the cell's corners for whole elements.
      */
     dealii::Point<2>
     reference_point(unsigned int element) const;
-
-    /// Exchange of element data with other ranks, for modules of this library; null if the mesh is
-    /// not distributed.
-    const internal::ElementExchange *
-    exchange() const;
 
     /// Elements of a cell, which have consecutive numbers.
     dealii::std_cxx20::ranges::iota_view<unsigned int, unsigned int>
@@ -322,8 +301,7 @@ namespace NMM
     const std::vector<unsigned int> &
     curve_set(unsigned int index) const;
 
-    /// Number of cells that physical curves come near, which are cut exactly; on a distributed
-    /// mesh of those that this rank owns.
+    /// Number of cells that physical curves come near, which are cut exactly.
     unsigned int
     n_cells_cut_exactly() const;
 
@@ -331,15 +309,7 @@ namespace NMM
     unsigned int
     find_element(const dealii::Point<2> &x) const;
 
-    /// Owned element that contains @p x [m], or invalid_index.
-    unsigned int
-    find_owned_element(const dealii::Point<2> &x) const;
-
   private:
-    unsigned int
-    find_element(const dealii::Point<2>                      &x,
-                 const std::pair<unsigned int, unsigned int> &elements) const;
-
     struct Data;
     std::unique_ptr<Data> data;
 

@@ -19,8 +19,6 @@
 
 namespace NMM
 {
-  struct RankCells;
-
   /// Triangles that will be a part of a mathematical mesh, see combine_meshes().
   struct MeshPart
   {
@@ -47,7 +45,7 @@ namespace NMM
    * because deal.II iterators would cost more than the arithmetic on each element.
    *
    * Order of calls in this room: make a mathematical mesh with make_regular_mesh(),
-   * make_graded_mesh(), read_gmsh_mesh() or make_distributed_mesh(); cut it with a PhysicalMesh by
+   * make_graded_mesh() or read_gmsh_mesh(); cut it with a PhysicalMesh by
    * the constructor of ManifoldMesh, or by make_own_meshes() if regions may be smaller than cells;
    * number the unknowns by a CoverSystem; treat covers with little support by aggregate() or
    * make_ghost_penalty().
@@ -87,11 +85,6 @@ namespace NMM
     MathematicalMesh(const dealii::Triangulation<2> &triangulation,
                      unsigned int                    degree);
 
-    /// Take over this rank's part of a distributed mesh, see make_distributed_mesh().
-    MathematicalMesh(std::unique_ptr<dealii::Triangulation<2>> triangulation,
-                     unsigned int                              degree,
-                     std::unique_ptr<const RankCells>          rank_cells);
-
     /// Take over the tables of another mesh. Objects that refer to that one, such as a
     /// ManifoldMesh, must not be used any more.
     MathematicalMesh(MathematicalMesh &&) noexcept;
@@ -118,22 +111,17 @@ namespace NMM
     unsigned int
     degree() const;
 
-    /// Number of cells that this rank holds; all cells if the mesh is not distributed.
+    /// Number of cells.
     unsigned int
     n_cells() const;
 
-    /// Number of mathematical covers of the cells that this rank holds.
+    /// Number of mathematical covers.
     unsigned int
     n_mathematical_covers() const;
 
     /// Number of weight functions on a cell: 3 or 6.
     unsigned int
     n_covers_per_cell() const;
-
-    /// Owners of the cells if this rank holds only a part of a distributed mesh; null if it
-    /// holds all of the mesh.
-    const RankCells *
-    rank_cells() const;
 
     /// Number of parts; 1 unless combine_meshes() made the mesh.
     unsigned int

@@ -105,11 +105,9 @@ namespace NMM
    *
    * The main mesh is cut first. If no region needs a mesh of its own, the main mesh is returned
    * with that manifold mesh, without further cost. Otherwise all parts are cut exactly, each at a
-   * cost in proportion to its regions. A distributed main mesh (make_distributed_mesh()) cannot be
-   * combined with meshes of regions.
+   * cost in proportion to its regions.
    * @throws InputError if the main mesh does not cover the solid, if the choices
-   * do not fit the regions, if cells of own meshes would need more memory than there
-   * is, or if a region beside a distributed mesh wants one of its own.
+   * do not fit the regions, or if cells of own meshes would need more memory than there is.
    */
   OwnMeshes
   make_own_meshes(std::unique_ptr<MathematicalMesh> main_mesh,

@@ -113,8 +113,8 @@ namespace NMM
     std::vector<Curve>
     make_limits() const;
 
-    /// The mathematical mesh, which is distributed among the ranks of @p communicator if the
-    /// scene says so. If it is graded towards crack tips, its cells are not larger than
+    /// The mathematical mesh, the same on all ranks of @p communicator, which share the memory of
+    /// their machine. If it is graded towards crack tips, its cells are not larger than
     /// @p further_sizes. @throws InputError for a curve that does not exist, for a file that cannot
     /// be read, and if the memory does not suffice.
     MathematicalMesh

@@ -460,10 +460,6 @@ namespace NMM
     check_fracture() const;
     void
     check_gravity() const;
-
-    /// Checks that the scene allows a mathematical mesh that is distributed among ranks.
-    void
-    check_distribution() const;
   };
 } // namespace NMM
 

@@ -43,9 +43,6 @@ namespace NMM
     RegionMesh mesh;
     /// The meshes of single blocks.
     std::vector<BlockMeshParameters> blocks;
-    /// Whether each rank stores only a part of the mathematical mesh, see
-    /// make_distributed_mesh().
-    bool is_distributed = false;
 
     /// Declares or reads the entries of the section, with a subsection for each of @p block_names.
     void

@@ -445,7 +445,7 @@ namespace NMM
       }
       write_stages(out, rows, images);
       write_threads(out, rows);
-      write_distribution(out, rows, images);
+      write_ranks(out, rows, images);
       std::ofstream(directory + "/performance.md") << out.str();
     }
   } // namespace Bench

@@ -45,11 +45,11 @@ namespace NMM
                  const std::vector<Row> &rows,
                  const std::string      &image_directory);
 
-    /// Runs on ranks, with the mesh on each rank or a part of it, and a model of many ranks.
+    /// Rings on ranks.
     void
-    write_distribution(std::ostream           &out,
-                       const std::vector<Row> &rows,
-                       const std::string      &image_directory);
+    write_ranks(std::ostream           &out,
+                const std::vector<Row> &rows,
+                const std::string      &image_directory);
 
     /// Stages on one thread and on more.
     void

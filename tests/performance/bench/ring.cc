@@ -45,9 +45,7 @@ namespace NMM
       const double a = parameters.inner_radius, b = parameters.outer_radius;
       Row          row;
       row.name       = ring.name;
-      row.method     = ring.options.is_distributed ? "distributed"
-                       : ring.is_graded            ? "manifold refined"
-                                                   : "manifold uniform";
+      row.method     = ring.is_graded ? "manifold refined" : "manifold uniform";
       row.kinematics = "small";
       StagedModel model(quarter_ring(a, b),
                         mesh_of(ring, parameters),

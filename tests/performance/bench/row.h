@@ -45,16 +45,8 @@ namespace NMM
       /// Largest resident size of the process, by how much this run raised it, and
       /// what is allocated in the end for what the case says, of all ranks [MB].
       double peak_memory = none, own_peak_memory = none, live_memory = none;
-      /// @name What one rank holds and says, the most of any rank
-      /// @{
-      double held_elements = none, ghost_elements = none,
-             /// Of other ranks' unknowns in a rank's rows of the matrix.
-        ghost_unknowns = none,
-             /// Sent for one product of matrix and vector.
-        messages = none, message_bytes = none,
-             /// For mesh, elements, covers, constraints and rules [MB].
-        rank_memory = none;
-      /// @}
+      /// For mesh, elements, covers, constraints and rules, the most of any rank [MB].
+      double rank_memory = none;
       /// Numbers of the solution, in a fixed order, by which runs are compared.
       std::string probes;
       double      repetitions = 1;
@@ -104,11 +96,6 @@ namespace NMM
       action("peak_memory_MB", row.peak_memory);
       action("own_peak_memory_MB", row.own_peak_memory);
       action("live_memory_MB", row.live_memory);
-      action("held_elements", row.held_elements);
-      action("ghost_elements", row.ghost_elements);
-      action("ghost_unknowns", row.ghost_unknowns);
-      action("messages", row.messages);
-      action("message_bytes", row.message_bytes);
       action("rank_memory_MB", row.rank_memory);
       action("probes", row.probes);
       action("repetitions", row.repetitions);

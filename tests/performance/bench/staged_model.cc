@@ -1,10 +1,5 @@
 #include "staged_model.h"
 
-#include <nmm/covers/rank_cells.h>
-
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Import.h>
-#include <Epetra_MpiDistributor.h>
 #include <iomanip>
 #include <sstream>
 
@@ -26,11 +21,7 @@ namespace NMM
       physical_mesh     = std::make_unique<PhysicalMesh>(std::move(geometry));
       row.geometry      = watch.lap();
       mathematical_mesh = std::make_unique<MathematicalMesh>(
-        options.is_distributed ? make_distributed_mesh(*physical_mesh,
-                                                       mesh_parameters,
-                                                       p,
-                                                       options.communicator)
-        : mesh_parameters.local_sizes.empty()
+        mesh_parameters.local_sizes.empty()
           ? make_regular_mesh(*physical_mesh, mesh_parameters, p)
           : make_graded_mesh(*physical_mesh, mesh_parameters, p));
       row.mesh = watch.lap();
@@ -74,46 +65,14 @@ namespace NMM
       using namespace dealii::Utilities::MPI;
       const MPI_Comm communicator = covers->communicator();
       const auto [first, end]     = covers->locally_owned_elements();
-      row.elements                = sum(end - first, communicator);
+      row.elements                = manifold_mesh->n_elements();
       row.cut_elements            = 0.;
       for (unsigned int e = first; e < end; ++e)
         row.cut_elements += manifold_mesh->is_whole(e) ? 0. : 1.;
-      row.cut_elements          = sum(row.cut_elements, communicator);
-      unsigned int n_aggregated = 0;
-      for (const auto &[cover, root] : aggregation.cover_to_root)
-        n_aggregated += covers->locally_owned_covers().is_element(
-          covers->global_cover(cover));
+      row.cut_elements = sum(row.cut_elements, communicator);
       row.unknowns =
-        2. * (covers->n_global_covers() - sum(n_aggregated, communicator));
-      row.held_elements =
-        max(static_cast<double>(manifold_mesh->n_elements()), communicator);
-      row.ghost_elements =
-        max(static_cast<double>(manifold_mesh->n_elements() - (end - first)),
-            communicator);
+        2. * (covers->n_covers() - aggregation.cover_to_root.size());
       row.rank_memory = max(allocated_memory() - memory, communicator);
-    }
-
-
-    void
-    StagedModel::count_messages(Row &row) const
-    {
-      using namespace dealii::Utilities::MPI;
-      const Epetra_Import *import =
-        elasticity->system_matrix().trilinos_matrix().Importer();
-      double messages = 0., bytes = 0., ghosts = 0.;
-      if (import != nullptr)
-      {
-        ghosts = import->NumRemoteIDs();
-        bytes  = sizeof(double) * import->NumExportIDs();
-        if (const auto *distributor =
-              dynamic_cast<const Epetra_MpiDistributor *>(
-                &import->Distributor()))
-          messages = distributor->NumSends();
-      }
-      const MPI_Comm communicator = covers->communicator();
-      row.ghost_unknowns          = max(ghosts, communicator);
-      row.messages                = max(messages, communicator);
-      row.message_bytes           = max(bytes, communicator);
     }
 
 
@@ -142,7 +101,6 @@ namespace NMM
       row.iterations     = report.direct ? none : report.n_iterations;
       row.nonzeros       = elasticity->system_matrix().n_nonzero_elements();
       row.total          = watch.total();
-      count_messages(row);
     }
 
 
@@ -168,9 +126,7 @@ namespace NMM
       using namespace dealii::Utilities::MPI;
       const Point<2> here        = x + 1e-9 * (inside - x);
       const auto [first, last]   = covers->locally_owned_elements();
-      const unsigned int element = manifold_mesh->exchange() == nullptr
-                                     ? manifold_mesh->find_element(here)
-                                     : manifold_mesh->find_owned_element(here);
+      const unsigned int element = manifold_mesh->find_element(here);
       const bool         is_here = element >= first && element < last;
       const unsigned int rank    = this_mpi_process(covers->communicator()),
                          owner   = min(is_here ? rank : invalid_index,

@@ -22,8 +22,6 @@ namespace NMM
         unsigned int  degree        = 2;
         Stabilization stabilization = Stabilization::aggregation;
         MPI_Comm      communicator  = MPI_COMM_WORLD;
-        /// Does each rank hold its part of the mesh only?
-        bool is_distributed = false;
         /// Of whole and cut elements; 0: what a linear problem needs, 2(p-1) and 2p.
         unsigned int degree_whole = 0, degree_cut = 0;
         /// Make a surface with these bodies beside the solid.
@@ -56,12 +54,9 @@ namespace NMM
                    const Point<2>          &inside) const;
 
     private:
-      /// Elements, unknowns, and what ranks hold; @p memory: before [MB].
+      /// Elements, unknowns, and the memory of a rank; @p memory: before [MB].
       void
       count(double memory, Row &row) const;
-
-      void
-      count_messages(Row &row) const;
 
       Stopwatch watch;
 

@@ -1,5 +1,7 @@
 #include "fitted_ring.h"
 
+#include <nmm/mechanics/thick_ring.h>
+
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -103,14 +105,13 @@ namespace StepNMM1
     void
     assemble(const DoFHandler<2>             &dof_handler,
              const Mapping<2>                &mapping,
-             const NMM::Material             &material,
-             const double                     pressure,
+             const Parameters                &parameters,
              const AffineConstraints<double> &constraints,
              TrilinosWrappers::SparseMatrix  &matrix,
              TrilinosWrappers::MPI::Vector   &rhs)
     {
       const SymmetricTensor<4, 2> C =
-        material.elasticity_tensor(NMM::PlaneState::plane_stress);
+        parameters.material.elasticity_tensor(NMM::PlaneState::plane_stress);
       const FiniteElement<2>              &fe = dof_handler.get_fe();
       const QGaussSimplex<2>               quadrature(3);
       const QGaussSimplex<1>               face_quadrature(3);
@@ -153,7 +154,7 @@ namespace StepNMM1
             face_values.reinit(cell, f);
             for (const unsigned int q : face_values.quadrature_point_indices())
               for (unsigned int i = 0; i < n; ++i)
-                local_rhs(i) -= pressure *
+                local_rhs(i) -= parameters.pressure *
                                 (face_values.normal_vector(q) *
                                  face_values[displacement].value(i, q)) *
                                 face_values.JxW(q);
@@ -172,16 +173,15 @@ namespace StepNMM1
                    const Mapping<2>             &mapping,
                    const Parameters             &parameters,
                    const dealii::Vector<double> &solution,
-                   Measurement                  &result)
+                   Run                          &result)
     {
-      const NMM::Material         material = parameters.material();
       const NMM::ThickRing        exact(parameters.inner_radius,
                                  parameters.outer_radius,
                                  parameters.pressure,
-                                 material,
+                                 parameters.material,
                                  NMM::PlaneState::plane_stress);
       const SymmetricTensor<4, 2> C =
-        material.elasticity_tensor(NMM::PlaneState::plane_stress);
+        parameters.material.elasticity_tensor(NMM::PlaneState::plane_stress);
       const QWitherdenVincentSimplex<2>  quadrature(4);
       FEValues<2>                        fe_values(mapping,
                             dof_handler.get_fe(),
@@ -222,14 +222,13 @@ namespace StepNMM1
   } // namespace
 
 
-  Measurement
+  Run
   run_fitted_elements(const Parameters &parameters, const double cell_size)
   {
-    Measurement result;
-    result.method    = "fitted";
-    result.degree    = 2;
-    result.cell_size = cell_size;
-    StageClock clock(result);
+    Run result;
+    result.method               = "fitted";
+    result.cell_size            = cell_size;
+    Tutorial::StageClock &clock = result.clock;
 
     Triangulation<2> triangulation;
     make_polar_mesh(triangulation, parameters, cell_size);
@@ -261,13 +260,7 @@ namespace StepNMM1
     TrilinosWrappers::MPI::Vector rhs(all, MPI_COMM_SELF),
       solution(all, MPI_COMM_SELF);
     clock.lap("sparsity");
-    assemble(dof_handler,
-             mapping,
-             parameters.material(),
-             parameters.pressure,
-             constraints,
-             matrix,
-             rhs);
+    assemble(dof_handler, mapping, parameters, constraints, matrix, rhs);
     clock.lap("assembly");
 
     SolverControl                  control;
@@ -277,7 +270,6 @@ namespace StepNMM1
     solver.solve(matrix, solution, rhs);
     constraints.distribute(solution);
     clock.lap("solution");
-    clock.stop();
 
     result.n_elements = triangulation.n_active_cells();
     result.n_unknowns = dof_handler.n_dofs();

@@ -25,16 +25,15 @@
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/timer.h>
-#include <deal.II/base/utilities.h>
 
-// `study.cc` has the parameters, laps of time, samples of the hoop stress and figures;
-// `fitted_ring.cc` solves the same ring on triangles of deal.II that fit it. They are apart from
-// this page since nothing of the method is in them.
+// `parameters.h` has the parameters, `figures.gp` the figures, and `fitted_ring.cc` solves the same ring on triangles
+// of deal.II that fit it. What all tutorials share, tables above all, is in the folder `tutorial`.
+#include "figures_gp.h"
 #include "fitted_ring.h"
-#include "study.h"
-#include "tutorial/tutorial.h"
+#include "parameters.h"
+#include <array>
 #include <cmath>
+#include <functional>
 
 namespace StepNMM1
 {
@@ -48,11 +47,12 @@ namespace StepNMM1
   // holds. Arcs are given by three points they pass through: three doubles always lie
   // exactly on one circle.
   NMM::Geometry
-  make_ring(const RingShape shape, const double a, const double b)
+  make_ring(const Parameters &parameters)
   {
     using NMM::CurvePiece;
+    const double  a = parameters.inner_radius, b = parameters.outer_radius;
     NMM::Geometry geometry;
-    if (shape == RingShape::full)
+    if (parameters.ring == "full")
     {
       geometry.add_circle(Point<2>(), b, "outer", NMM::CurveRole::boundary);
       geometry.add_circle(Point<2>(), a, "inner", NMM::CurveRole::hole);
@@ -66,7 +66,7 @@ namespace StepNMM1
       curve.pieces = {piece};
       geometry.add(std::move(curve));
     };
-    const bool is_half = (shape == RingShape::half);
+    const bool is_half = (parameters.ring == "half");
     const auto last    = [&](const double r) {
       return is_half ? Point<2>(-r, 0.) : Point<2>(0., r);
     };
@@ -91,25 +91,22 @@ namespace StepNMM1
   // turn: points that symmetry holds still anyway get the springs of the
   // paper's eq. (12), which carry no force then.
   NMM::ElasticityProblem
-  make_problem(const RingShape      shape,
-               const double         a,
-               const double         b,
-               const double         pressure,
-               const NMM::Material &material)
+  make_problem(const Parameters &parameters)
   {
     using Condition = NMM::BoundaryCondition;
     NMM::ElasticityProblem problem;
     problem.plane_state = NMM::PlaneState::plane_stress;
-    problem.materials   = {material};
+    problem.materials   = {parameters.material};
 
     Condition load;
     load.name  = "pressure";
     load.curve = "inner";
     load.type  = Condition::Type::pressure;
-    load.value = std::make_shared<Functions::ConstantFunction<2>>(pressure);
+    load.value =
+      std::make_shared<Functions::ConstantFunction<2>>(parameters.pressure);
     problem.boundary_conditions.push_back(load);
 
-    if (shape != RingShape::full)
+    if (parameters.ring != "full")
       for (const std::string cut : {"first cut", "last cut"})
       {
         Condition symmetry;
@@ -119,7 +116,7 @@ namespace StepNMM1
         problem.boundary_conditions.push_back(symmetry);
       }
 
-    const double r    = 0.5 * (a + b);
+    const double r = 0.5 * (parameters.inner_radius + parameters.outer_radius);
     const auto   hold = [&](const Point<2> &x, const bool in_x) {
       NMM::FixedPoint point;
       point.point         = x;
@@ -127,9 +124,9 @@ namespace StepNMM1
       point.components[1] = !in_x;
       problem.fixed_points.push_back(point);
     };
-    if (shape != RingShape::quarter)
+    if (parameters.ring != "quarter")
       hold(Point<2>(0., r), true);
-    if (shape == RingShape::full)
+    if (parameters.ring == "full")
     {
       hold(Point<2>(r, 0.), false);
       hold(Point<2>(-r, 0.), false);
@@ -138,33 +135,101 @@ namespace StepNMM1
   }
 
 
+  // @sect3{What is measured}
+
+  // The hoop stress is largest at the inner circle, where triangles are cut. At 101 points of a
+  // radius, both circles included: distance from the centre [m] and hoop stress [Pa].
+  using StressAt = std::function<SymmetricTensor<2, 2>(const Point<2> &)>;
+
+  std::vector<std::array<double, 2>>
+  sample_hoop(const Parameters &parameters,
+              const double      degrees,
+              const StressAt   &stress)
+  {
+    const double           angle = degrees * numbers::PI / 180.;
+    const Tensor<1, 2>     along({std::cos(angle), std::sin(angle)});
+    const Tensor<1, 2>     across({-along[1], along[0]});
+    constexpr unsigned int n = 100;
+    std::vector<std::array<double, 2>> samples;
+    for (unsigned int k = 0; k <= n; ++k)
+    {
+      const double r =
+        parameters.inner_radius +
+        (parameters.outer_radius - parameters.inner_radius) * k / n;
+      samples.push_back({{r, across * (stress(Point<2>(r * along)) * across)}});
+    }
+    return samples;
+  }
+
+
+  double
+  largest_hoop_error(const NMM::ThickRing &exact,
+                     const Parameters     &parameters,
+                     const StressAt       &stress)
+  {
+    double largest = 0.;
+    for (const double degrees : {15., 45., 75.})
+      for (const auto &[r, hoop] : sample_hoop(parameters, degrees, stress))
+        largest = std::max(largest,
+                           std::abs(hoop - exact.hoop_stress(r)) /
+                             exact.hoop_stress(r));
+    return largest;
+  }
+
+
+  // A row of the table. An error falls like $n^{-q/2}$ with the number of unknowns $n$, where $q$ is
+  // the order; it is known from the second mesh of a method on.
+  Tutorial::Row
+  row(const Run &run, const Run *coarser)
+  {
+    const auto order = [&](const double Run::*error) -> Tutorial::Value {
+      if (coarser == nullptr)
+        return "-";
+      return 2. * std::log(coarser->*error / run.*error) /
+             std::log(double(run.n_unknowns) / coarser->n_unknowns);
+    };
+    Tutorial::Value recovered = run.error_hoop_recovered;
+    if (run.method == "fitted")
+      recovered = "-";
+    return {{"method", run.method},
+            {"degree", run.degree},
+            {"cell_size_m", run.cell_size},
+            {"unknowns", run.n_unknowns},
+            {"L2_u", run.error_u},
+            {"order_u", order(&Run::error_u)},
+            {"L2_stress", run.error_stress},
+            {"order_stress", order(&Run::error_stress)},
+            {"hoop_direct", run.error_hoop},
+            {"hoop_recovered", recovered},
+            {"total_s", run.clock.total()},
+            {"stages_s", run.clock.to_text()}};
+  }
+
+
   // @sect3{One run}
 
   // From curves to displacements. The order is that of the library's modules, and
   // each result is an immutable object the next one refers to: nothing here is
   // ever copied or updated in place.
-  Measurement
+  Run
   run_manifold_method(const Parameters                &parameters,
                       const NMM::GradedMeshParameters &mesh_parameters,
                       const unsigned int               degree,
                       Tutorial::Table                 *profile)
   {
-    const NMM::Material  material = parameters.material();
     const NMM::ThickRing exact(parameters.inner_radius,
                                parameters.outer_radius,
                                parameters.pressure,
-                               material,
+                               parameters.material,
                                NMM::PlaneState::plane_stress);
 
-    Measurement result;
+    Run result;
     result.method = mesh_parameters.local_sizes.empty() ? "uniform" : "graded";
     result.degree = degree;
-    result.cell_size = mesh_parameters.cell_size;
-    StageClock clock(result);
+    result.cell_size            = mesh_parameters.cell_size;
+    Tutorial::StageClock &clock = result.clock;
 
-    const NMM::PhysicalMesh     physical_mesh(make_ring(parameters.shape,
-                                                    parameters.inner_radius,
-                                                    parameters.outer_radius));
+    const NMM::PhysicalMesh     physical_mesh(make_ring(parameters));
     const NMM::MathematicalMesh mathematical_mesh =
       mesh_parameters.local_sizes.empty()
         ? NMM::make_regular_mesh(physical_mesh, mesh_parameters, degree)
@@ -189,18 +254,13 @@ namespace StepNMM1
                                                covers.locally_owned_elements());
     clock.lap("quadrature");
 
-    const NMM::ElasticityProblem problem = make_problem(parameters.shape,
-                                                        parameters.inner_radius,
-                                                        parameters.outer_radius,
-                                                        parameters.pressure,
-                                                        material);
+    const NMM::ElasticityProblem problem = make_problem(parameters);
     NMM::StaticElasticity elasticity(covers, quadrature, constraints, problem);
     elasticity.assemble();
     clock.lap("assembly");
 
     elasticity.solve(NMM::LinearSolverParameters());
     clock.lap("solution");
-    clock.stop();
 
     // What follows is not part of the method but of its examination.
     const NMM::DisplacementField field(covers, problem, elasticity.solution());
@@ -209,37 +269,36 @@ namespace StepNMM1
       [&](const Point<2> &x) { return exact.displacement(x); },
       [&](const Point<2> &x) { return exact.stress(x); });
     const NMM::StressRecovery recovery(field, aggregation);
-    clock.lap("recovery");
 
     // Covers with too little support are expressed through others: they have
     // rows in the matrix, but are no unknowns.
     result.n_unknowns =
       2 * (covers.n_covers() - aggregation.cover_to_root.size());
-    result.n_elements    = manifold_mesh.n_elements();
     result.error_u       = errors.displacement;
     result.error_stress  = errors.stress;
-    const auto sample_of = [&](const auto &stress_at) {
-      return [&, stress_at](const Point<2> &x) {
+    const auto stress_of = [&](const auto &stresses) -> StressAt {
+      return [&](const Point<2> &x) {
         const unsigned int element = manifold_mesh.find_element(x);
         AssertThrow(element != NMM::invalid_index, ExcInternalError());
-        return stress_at(
+        return stresses.stress(
           element,
           mathematical_mesh.real_to_reference(manifold_mesh.cell(element), x));
       };
     };
-    const auto direct =
-      sample_of([&](const unsigned int element, const Point<2> &xi) {
-        return field.stress(element, xi);
-      });
-    const auto recovered =
-      sample_of([&](const unsigned int element, const Point<2> &xi) {
-        return recovery.stress(element, xi);
-      });
+    const StressAt direct = stress_of(field), recovered = stress_of(recovery);
     result.error_hoop = largest_hoop_error(exact, parameters, direct);
     result.error_hoop_recovered =
       largest_hoop_error(exact, parameters, recovered);
-    if (profile != nullptr)
-      *profile = sample_hoop(exact, parameters, direct, recovered);
+    const auto profile_direct    = sample_hoop(parameters, 45., direct);
+    const auto profile_recovered = sample_hoop(parameters, 45., recovered);
+    for (unsigned int k = 0; k < profile_direct.size() && profile; ++k)
+    {
+      const auto [r, hoop] = profile_direct[k];
+      profile->add({{"r_m", r},
+                    {"exact_Pa", exact.hoop_stress(r)},
+                    {"direct_Pa", hoop},
+                    {"recovered_Pa", profile_recovered[k][1]}});
+    }
     return result;
   }
 
@@ -256,8 +315,8 @@ namespace StepNMM1
   {
     NMM::GradedMeshParameters mesh;
     mesh.cell_size = cell_size;
-    mesh.offset    = parameters.offset;
-    mesh.rotation  = parameters.rotation;
+    mesh.offset    = parameters.placement.offset;
+    mesh.rotation  = parameters.placement.rotation;
     if (is_graded)
     {
       NMM::LocalSize near_inside;
@@ -274,17 +333,15 @@ namespace StepNMM1
   // Six mesh sizes, first and second order, and fitted triangles of deal.II
   // beside them. The hoop stress is drawn for the coarsest regular meshes.
   void
-  run_convergence_study(const Parameters &parameters, const std::string &prefix)
+  run_convergence_study(const Parameters &parameters)
   {
-    Tutorial::Table          table("The ring: relative errors", 11);
-    std::vector<Measurement> measurements;
-    const auto               add = [&](const Measurement &measurement) {
+    Tutorial::Table table("The ring: relative errors", 11);
+    Run             coarser;
+    const auto      add = [&](const Run &run) {
       const bool is_coarsest =
-        measurements.empty() ||
-        measurements.back().method != measurement.method ||
-        measurements.back().degree != measurement.degree;
-      table.add(row(measurement, is_coarsest ? nullptr : &measurements.back()));
-      measurements.push_back(measurement);
+        coarser.method != run.method || coarser.degree != run.degree;
+      table.add(row(run, is_coarsest ? nullptr : &coarser));
+      coarser = run;
       return is_coarsest;
     };
     const auto run = [&](const unsigned int degree, const bool is_graded) {
@@ -299,7 +356,8 @@ namespace StepNMM1
               degree,
               &profile)) &&
             !is_graded)
-          profile.write(prefix + "hoop-" + std::to_string(degree) + ".csv");
+          profile.write(parameters.prefix + "hoop-" + std::to_string(degree) +
+                        ".csv");
       }
     };
     run(1, false);
@@ -307,14 +365,14 @@ namespace StepNMM1
     run(2, true);
     for (const double cell_size : parameters.cell_sizes)
       add(run_fitted_elements(parameters, cell_size));
-    table.write(prefix + "study.csv");
+    table.write(parameters.prefix + "study.csv");
   }
 
 
   // An unfitted method must not care where its mesh happens to lie: the same
   // ring with the mesh moved and turned at random.
   void
-  run_placement_study(Parameters parameters, const std::string &prefix)
+  run_placement_study(Parameters parameters)
   {
     Tutorial::Table table;
     for (const Tutorial::Placement &placement :
@@ -322,20 +380,17 @@ namespace StepNMM1
                                      parameters.seed,
                                      parameters.placement_cell_size))
     {
-      parameters.offset   = placement.offset;
-      parameters.rotation = placement.rotation;
-      table.add(row(
-        run_manifold_method(parameters,
-                            make_mesh_parameters(parameters,
-                                                 parameters.placement_cell_size,
-                                                 /* is_graded = */ true),
-                            2,
-                            nullptr)));
+      parameters.placement = placement;
+      const auto mesh      = make_mesh_parameters(parameters,
+                                             parameters.placement_cell_size,
+                                             /* is_graded = */ true);
+      table.add(
+        row(run_manifold_method(parameters, mesh, 2, nullptr), nullptr));
     }
     table.print_ranges(
       "The mesh moved and turned at random",
       {"cell_size_m", "L2_u", "L2_stress", "hoop_recovered", "hoop_direct"});
-    table.write(prefix + "placements.csv");
+    table.write(parameters.prefix + "placements.csv");
   }
 } // namespace StepNMM1
 
@@ -346,15 +401,10 @@ int
 main(int argc, char **argv)
 {
   using namespace StepNMM1;
-  return Tutorial::run(
-    argc,
-    argv,
-    [](const std::string &parameter_file, const std::string &output_directory) {
-      const Parameters parameters = read_parameters(parameter_file);
-      Tutorial::make_output_directory(output_directory);
-      const std::string prefix = output_directory + "/step-nmm-1-";
-      run_convergence_study(parameters, prefix);
-      run_placement_study(parameters, prefix);
-      draw_figures(prefix);
+  return Tutorial::run<Parameters>(
+    "step-nmm-1", argc, argv, [](const Parameters &parameters) {
+      run_convergence_study(parameters);
+      run_placement_study(parameters);
+      Tutorial::draw_figures(parameters.prefix, figures_gp);
     });
 }

@@ -3,6 +3,7 @@
 #include <nmm/base/exceptions.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include <limits>
 #include <random>
 #include <sstream>
+#include <stdexcept>
 
 namespace Tutorial
 {
@@ -60,6 +62,16 @@ namespace Tutorial
   }
 
 
+  double
+  number(const Row &row, const std::string &column)
+  {
+    for (const auto &[name, value] : row)
+      if (name == column)
+        return value.number;
+    throw std::out_of_range("no column " + column);
+  }
+
+
   Table::Table(const std::string &title, const unsigned int n_printed)
     : title(title)
     , n_printed(n_printed)
@@ -93,6 +105,17 @@ namespace Tutorial
   }
 
 
+  std::vector<double>
+  Table::column(const std::string &name) const
+  {
+    std::vector<double> result;
+    for (const Row &row : rows)
+      if (!row.empty())
+        result.push_back(number(row, name));
+    return result;
+  }
+
+
   void
   Table::print_ranges(const std::string              &title,
                       const std::vector<std::string> &columns) const
@@ -102,16 +125,11 @@ namespace Tutorial
     std::cout << '\n' << title << '\n';
     for (const std::string &name : columns)
     {
-      double low = std::numeric_limits<double>::infinity(), high = -low;
-      for (const Row &row : rows)
-        for (const auto &[column, value] : row)
-          if (column == name)
-          {
-            low  = std::min(low, value.number);
-            high = std::max(high, value.number);
-          }
-      std::cout << std::setw(30) << name << ": " << to_text(low, 3) << " to "
-                << to_text(high, 3) << std::endl;
+      const std::vector<double> values = column(name);
+      const auto [low, high] =
+        std::minmax_element(values.begin(), values.end());
+      std::cout << std::setw(30) << name << ": " << to_text(*low, 3) << " to "
+                << to_text(*high, 3) << std::endl;
     }
   }
 
@@ -135,6 +153,65 @@ namespace Tutorial
                 NMM::InputError("results cannot be written",
                                 file_name,
                                 "name a folder that can be written to"));
+  }
+
+
+  std::vector<Record>
+  read_csv(std::istream &in)
+  {
+    std::vector<std::string> columns;
+    std::vector<Record>      records;
+    for (std::string line; std::getline(in, line);)
+    {
+      if (line.empty() || line[0] == '#')
+        continue;
+      const std::vector<std::string> cells =
+        dealii::Utilities::split_string_list(line, ',');
+      if (columns.empty())
+      {
+        columns = cells;
+        continue;
+      }
+      records.emplace_back();
+      for (unsigned int i = 0; i < columns.size(); ++i)
+        records.back()[columns[i]] = i < cells.size() ? cells[i] : "";
+    }
+    return records;
+  }
+
+
+  void
+  StageClock::lap(const std::string &name)
+  {
+    laps.emplace_back(name, timer.wall_time() - total());
+  }
+
+
+  double
+  StageClock::total() const
+  {
+    double sum = 0.;
+    for (const auto &[name, seconds] : laps)
+      sum += seconds;
+    return sum;
+  }
+
+
+  std::string
+  StageClock::to_text() const
+  {
+    std::ostringstream text;
+    text << std::setprecision(3);
+    for (const auto &[name, seconds] : laps)
+      text << name << '=' << seconds << ' ';
+    return text.str();
+  }
+
+
+  const std::vector<std::pair<std::string, double>> &
+  StageClock::stages() const
+  {
+    return laps;
   }
 
 

@@ -2,7 +2,10 @@
 #define tutorial_table_h
 
 #include <deal.II/base/tensor.h>
+#include <deal.II/base/timer.h>
 
+#include <istream>
+#include <map>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -32,6 +35,10 @@ namespace Tutorial
   /// Columns and their values, in the order of the table.
   using Row = std::vector<std::pair<std::string, Value>>;
 
+  /// The number in a column. @throws std::out_of_range without such a column.
+  double
+  number(const Row &row, const std::string &column);
+
 
   /**
    * A table of results. Rows are printed as they are added, and written as CSV in the end. All rows
@@ -57,6 +64,10 @@ namespace Tutorial
     void
     add_break(unsigned int n = 1);
 
+    /// The numbers in a column.
+    std::vector<double>
+    column(const std::string &name) const;
+
     /// Print the least and the largest values of columns in all rows.
     void
     print_ranges(const std::string              &title,
@@ -72,6 +83,39 @@ namespace Tutorial
     unsigned int n_printed;
     /// An empty row is an empty line.
     std::vector<Row> rows;
+  };
+
+
+  /// The words of a row of a CSV file, by column; "" where a row ends early.
+  using Record = std::map<std::string, std::string>;
+
+  /// Read rows below the one with the names of columns; lines that begin with # are skipped.
+  std::vector<Record>
+  read_csv(std::istream &in);
+
+
+  /// The stages of a run and their wall times [s]; the first one begins with this object.
+  class StageClock
+  {
+  public:
+    /// The stage @p name ends here.
+    void
+    lap(const std::string &name);
+
+    /// Until the last stage that has ended.
+    double
+    total() const;
+
+    /// All stages as NAME=SECONDS.
+    std::string
+    to_text() const;
+
+    const std::vector<std::pair<std::string, double>> &
+    stages() const;
+
+  private:
+    dealii::Timer                               timer;
+    std::vector<std::pair<std::string, double>> laps;
   };
 
 

@@ -5,7 +5,7 @@
 #include <nmm/mechanics/thick_ring.h>
 
 #include "step-nmm-1/fitted_ring.h"
-#include "step-nmm-1/study.h"
+#include "step-nmm-1/parameters.h"
 
 namespace NMM
 {
@@ -20,8 +20,8 @@ namespace NMM
       {
         GradedMeshParameters mesh;
         mesh.cell_size = ring.cell_size;
-        mesh.offset    = parameters.offset;
-        mesh.rotation  = parameters.rotation;
+        mesh.offset    = parameters.placement.offset;
+        mesh.rotation  = parameters.placement.rotation;
         if (ring.is_graded)
         {
           LocalSize inside;
@@ -41,7 +41,7 @@ namespace NMM
     Row
     run(const Ring &ring, const bool with_stress_error)
     {
-      const StepNMM1::Parameters parameters = StepNMM1::read_parameters("");
+      const StepNMM1::Parameters parameters;
       const double a = parameters.inner_radius, b = parameters.outer_radius;
       Row          row;
       row.name       = ring.name;
@@ -52,7 +52,7 @@ namespace NMM
                         ring.options,
                         row);
       model.problem.plane_state         = PlaneState::plane_stress;
-      model.problem.materials           = {parameters.material()};
+      model.problem.materials           = {parameters.material};
       model.problem.boundary_conditions = {
         condition(Type::normal_displacement, "bottom"),
         condition(Type::normal_displacement, "left"),
@@ -98,29 +98,28 @@ namespace NMM
       Row
       run_fitted(const std::string &name, const double cell_size)
       {
-        const StepNMM1::Measurement measurement =
-          StepNMM1::run_fitted_elements(StepNMM1::read_parameters(""),
-                                        cell_size);
+        const StepNMM1::Run fitted =
+          StepNMM1::run_fitted_elements(StepNMM1::Parameters(), cell_size);
         Row row;
         row.name              = name;
         row.method            = "fitted (deal.II)";
         row.kinematics        = "small";
         row.solver            = "MUMPS unsymmetric";
-        row.degree            = measurement.degree;
-        row.elements          = measurement.n_elements;
-        row.unknowns          = measurement.n_unknowns;
-        row.nonzeros          = measurement.n_nonzeros;
-        row.error             = measurement.error_u;
-        row.second_error      = measurement.error_stress;
+        row.degree            = fitted.degree;
+        row.elements          = fitted.n_elements;
+        row.unknowns          = fitted.n_unknowns;
+        row.nonzeros          = fitted.n_nonzeros;
+        row.error             = fitted.error_u;
+        row.second_error      = fitted.error_stress;
         row.error_kind        = "L2 of u";
         row.second_error_kind = "L2 of stress";
-        for (const auto &[stage, seconds] : measurement.stages)
+        for (const auto &[stage, seconds] : fitted.clock.stages())
           (stage == "mesh"       ? row.mesh
            : stage == "dofs"     ? row.covers
            : stage == "sparsity" ? row.sparsity
            : stage == "assembly" ? row.assembly
                                  : row.factorization) = seconds;
-        row.total = measurement.total;
+        row.total = fitted.clock.total();
         return row;
       }
 

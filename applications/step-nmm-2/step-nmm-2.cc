@@ -24,16 +24,18 @@
 #include <nmm/quadrature/element_quadrature.h>
 
 #include <deal.II/base/function.h>
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
 // The paper's scheme has a file of its own, `incremental_elasticity.cc`: the library has only Newton's
-// method. `study.cc` has the parameters and the reference values, `figures.cc` the
+// method. `cantilever.cc` has the parameters and the reference values, `figures.gp` the
 // figures. They are apart from this page since nothing of the method is in them.
+#include "cantilever.h"
+#include "cantilever_csv.h"
+#include "figures_gp.h"
 #include "incremental_elasticity.h"
-#include "study.h"
-#include "tutorial/tutorial.h"
+#include <array>
 #include <cmath>
+#include <fstream>
 
 namespace StepNMM2
 {
@@ -120,8 +122,8 @@ namespace StepNMM2
   {
     NMM::GradedMeshParameters mesh;
     mesh.cell_size = cell_size;
-    mesh.offset    = parameters.offset;
-    mesh.rotation  = parameters.rotation;
+    mesh.offset    = parameters.placement.offset;
+    mesh.rotation  = parameters.placement.rotation;
     if (is_graded)
       for (const double y : {0., parameters.height})
       {
@@ -151,6 +153,7 @@ namespace StepNMM2
           const unsigned int               degree,
           const Load                       load)
       : parameters(parameters)
+      , mesh(mesh)
       , physical_mesh(make_beam(parameters))
       , mathematical_mesh(
           mesh.local_sizes.empty()
@@ -166,12 +169,6 @@ namespace StepNMM2
                    covers.locally_owned_elements())
       , problem(make_problem(parameters, load))
     {
-      measurement.load      = load;
-      measurement.degree    = degree;
-      measurement.mesh      = mesh.local_sizes.empty() ? "uniform" : "graded";
-      measurement.cell_size = mesh.cell_size;
-      measurement.n_unknowns =
-        2 * (covers.n_covers() - aggregation.cover_to_root.size());
     }
 
 
@@ -199,7 +196,22 @@ namespace StepNMM2
       return {{-d[1] / parameters.length, -d[0] / parameters.length}};
     }
 
+    // What all rows of the table begin with.
+    Tutorial::Row
+    row(const Load load, const std::string &kinematics) const
+    {
+      const bool is_graded = mesh.local_sizes.size() > 0;
+      return {{"load", name(load)},
+              {"kinematics", kinematics},
+              {"degree", mathematical_mesh.degree()},
+              {"mesh", is_graded ? "graded" : "uniform"},
+              {"cell_size_m", mesh.cell_size},
+              {"unknowns",
+               2 * (covers.n_covers() - aggregation.cover_to_root.size())}};
+    }
+
     const Parameters               &parameters;
+    const NMM::GradedMeshParameters mesh;
     const NMM::PhysicalMesh         physical_mesh;
     const NMM::MathematicalMesh     mathematical_mesh;
     const NMM::ManifoldMesh         manifold_mesh;
@@ -208,7 +220,6 @@ namespace StepNMM2
     const AffineConstraints<double> constraints;
     const NMM::QuadratureCollection quadrature;
     const NMM::ElasticityProblem    problem;
-    Measurement                     measurement;
   };
 
 
@@ -216,40 +227,38 @@ namespace StepNMM2
 
   // Newton's method at K = 2, 4, ..., 10. Beside the error stands what one iteration
   // costs, and what one linear problem on the same covers does.
-  Measurement
+  Tutorial::Row
   run_finite(const Parameters                &parameters,
              const NMM::GradedMeshParameters &mesh,
              const unsigned int               degree,
              const Load                       load)
   {
     Timer                 timer;
-    Model                 model(parameters, mesh, degree, load);
+    const Model           model(parameters, mesh, degree, load);
     NMM::FiniteElasticity elasticity(model.covers,
                                      model.quadrature,
                                      model.constraints,
                                      model.problem);
     NMM::NonlinearStatics statics(elasticity);
 
-    Measurement &result    = model.measurement;
-    result.kinematics      = "finite";
-    double     newton_time = 0.;
-    const auto record      = [&](const NMM::LoadStep                 &step,
-                            const TrilinosWrappers::MPI::Vector &u) {
-      result.deflection[parameters.last_load * step.load_factor] =
-        model.tip({model.covers, model.problem, u})[0];
-      ++result.n_steps;
-      result.n_iterations +=
-        step.newton.iterations.size() + step.n_lost_iterations;
-      newton_time += step.newton.assembly_time +
-                     step.newton.factorization_time +
-                     step.newton.substitution_time;
-    };
-    statics.run(NMM::LoadSteps::equal(parameters.n_load_steps), record);
-    result.total_time     = timer.wall_time();
-    result.iteration_time = newton_time / result.n_iterations;
+    std::map<double, double> deflections;
+    unsigned int             n_iterations = 0;
+    double                   newton_time  = 0.;
+    statics.run(NMM::LoadSteps::equal(parameters.n_load_steps),
+                [&](const NMM::LoadStep                 &step,
+                    const TrilinosWrappers::MPI::Vector &u) {
+                  deflections[parameters.last_load * step.load_factor] =
+                    model.tip({model.covers, model.problem, u})[0];
+                  n_iterations +=
+                    step.newton.iterations.size() + step.n_lost_iterations;
+                  newton_time += step.newton.assembly_time +
+                                 step.newton.factorization_time +
+                                 step.newton.substitution_time;
+                });
+    const double total_time = timer.wall_time();
 
     // the best of three, as the first one also pays for what is loaded late
-    result.linear_time = 1e300;
+    double linear_time = 1e300;
     for (unsigned int k = 0; k < 3; ++k)
     {
       timer.restart();
@@ -259,10 +268,15 @@ namespace StepNMM2
                                    model.problem);
       linear.assemble();
       linear.solve(NMM::LinearSolverParameters());
-      result.linear_time = std::min(result.linear_time, timer.wall_time());
+      linear_time = std::min(linear_time, timer.wall_time());
     }
-    compare(result);
-    return result;
+    return model.row(load, "finite") +
+           Tutorial::Row{{"steps", deflections.size()},
+                         {"iterations", n_iterations},
+                         {"error", largest_error(load, deflections)},
+                         {"total_s", total_time},
+                         {"iteration_s", newton_time / n_iterations},
+                         {"linear_s", linear_time}};
   }
 
 
@@ -270,42 +284,97 @@ namespace StepNMM2
 
   // The paper's way: each increment is one linear problem on the geometry that
   // the last one left.
-  Measurement
+  Tutorial::Row
   run_incremental(const Parameters                &parameters,
                   const NMM::GradedMeshParameters &mesh,
                   const Load                       load,
                   const unsigned int               n_steps)
   {
     Timer                 timer;
-    Model                 model(parameters, mesh, 2, load);
+    const Model           model(parameters, mesh, 2, load);
     IncrementalElasticity elasticity(model.covers,
                                      model.quadrature,
                                      model.constraints,
                                      model.problem);
-    Measurement          &result = model.measurement;
-    result.kinematics            = "incremental";
-    result.n_steps               = n_steps;
-    result.n_iterations          = n_steps;
-    const double setup_time      = timer.wall_time();
+
+    std::map<double, double> deflections;
+    const double             setup_time = timer.wall_time();
     for (unsigned int k = 1; k <= n_steps; ++k)
     {
       elasticity.step(static_cast<double>(k) / n_steps);
       if (parameters.n_load_steps * k % n_steps == 0)
-        result.deflection[parameters.last_load * k / n_steps] = model.tip(
+        deflections[parameters.last_load * k / n_steps] = model.tip(
           {model.covers, model.problem, elasticity.displacements()})[0];
     }
-    result.total_time     = timer.wall_time();
-    result.iteration_time = (result.total_time - setup_time) / n_steps;
-    compare(result);
-    return result;
+    const double total_time = timer.wall_time();
+    return model.row(load, "incremental") +
+           Tutorial::Row{{"steps", n_steps},
+                         {"iterations", n_steps},
+                         {"error", largest_error(load, deflections)},
+                         {"total_s", total_time},
+                         {"iteration_s", (total_time - setup_time) / n_steps},
+                         {"linear_s", 0.}};
+  }
+
+
+  // @sect3{The study}
+
+  // Mesh sizes with and without smaller triangles at the corners, first and
+  // second order; then increments.
+  void
+  run_study(const Parameters &parameters)
+  {
+    Tutorial::Table table(
+      "Largest error of w/L at K = 2, 4, ..., 10, relative to the solid of "
+      "cantilever.csv");
+    for (const Load load : loads)
+    {
+      const auto finite = [&](const unsigned int degree, const bool is_graded) {
+        for (const double cell_size : parameters.cell_sizes)
+          table.add(
+            run_finite(parameters,
+                       make_mesh_parameters(parameters, cell_size, is_graded),
+                       degree,
+                       load));
+      };
+      finite(1, false);
+      finite(2, false);
+      finite(2, true);
+      const auto mesh = make_mesh_parameters(parameters,
+                                             parameters.cell_size,
+                                             /* is_graded = */ true);
+      for (const unsigned int n : parameters.increments)
+        table.add(run_incremental(parameters, mesh, load, n));
+    }
+    table.write(parameters.prefix + "study.csv");
+  }
+
+
+  // The mesh moved and turned at random: the error must not depend on luck.
+  void
+  run_placements(Parameters parameters)
+  {
+    Tutorial::Table table;
+    for (const Tutorial::Placement &placement : Tutorial::random_placements(
+           parameters.n_placements, parameters.seed, parameters.cell_size))
+    {
+      parameters.placement = placement;
+      const auto mesh      = make_mesh_parameters(parameters,
+                                             parameters.cell_size,
+                                             /* is_graded = */ true);
+      for (const Load load : loads)
+        table.add(run_finite(parameters, mesh, 2, load));
+    }
+    table.print_ranges("Mesh moved and turned at random, both loads",
+                       {"cell_size_m", "error", "iterations"});
   }
 
 
   // @sect3{Fig. 10}
 
   // The tip at K = 0.5, 1, ..., 10, and the deformed outline at the paper's loads.
-  Curves
-  compute_curves(const Parameters &parameters, const Load load)
+  void
+  write_curves(const Parameters &parameters, const Load load)
   {
     const Model           model(parameters,
                       make_mesh_parameters(parameters,
@@ -318,91 +387,43 @@ namespace StepNMM2
                                      model.constraints,
                                      model.problem);
     const double          L = parameters.length, H = parameters.height;
-    Curves                curves;
+    Tutorial::Table       tip, shapes;
     const auto            add_outline = [&](const double                         K,
                                  const TrilinosWrappers::MPI::Vector &u) {
       const NMM::DisplacementField field(model.covers, model.problem, u);
-      std::vector<Point<2>>       &outline = curves.outlines[K];
-      constexpr unsigned int       n       = 60;
+      const auto                   add_point = [&](const Point<2> &x) {
+        const Point<2> now = model.moved(field, x);
+        shapes.add({{"x_m", now[0]}, {"y_m", now[1]}, {"K", K}});
+      };
+      constexpr unsigned int n = 60;
       for (unsigned int k = 0; k <= n; ++k)
-        outline.push_back(model.moved(field, {k * L / n, 0.}));
+        add_point({k * L / n, 0.});
       for (unsigned int k = 0; k <= n; ++k)
-        outline.push_back(model.moved(field, {(n - k) * L / n, H}));
-      outline.push_back(outline.front());
+        add_point({(n - k) * L / n, H});
+      add_point({0., 0.});
+      shapes.add_break();
     };
+    const auto add_tip = [&](const double K, const double w, const double u) {
+      tip.add({{"K", K}, {"w_over_L", w}, {"u_over_L", u}});
+    };
+
     constexpr unsigned int n_steps = 20;
     NMM::NonlinearStatics  statics(elasticity);
     add_outline(0., statics.solution());
-    curves.tip[0.] = {{0., 0.}};
-    statics.run(NMM::LoadSteps::equal(n_steps),
-                [&](const NMM::LoadStep                 &step,
-                    const TrilinosWrappers::MPI::Vector &u) {
-                  const double K = parameters.last_load * step.load_factor;
-                  curves.tip[K]  = model.tip({model.covers, model.problem, u});
-                  const auto k   = std::lround(n_steps * step.load_factor);
-                  if (step.is_asked && k % 4 == 0)
-                    add_outline(K, u);
-                });
-    return curves;
-  }
-
-
-  // @sect3{The study}
-
-  // Mesh sizes with and without smaller triangles at the corners, first and
-  // second order; then increments.
-  void
-  run_study(const Parameters &parameters, const std::string &prefix)
-  {
-    Tutorial::Table table(
-      "Largest error of w/L at K = 2, 4, ..., 10, relative to the solid of "
-      "cantilever.csv");
-    for (const Load load : loads)
-    {
-      const auto finite = [&](const unsigned int degree, const bool is_graded) {
-        for (const double cell_size : parameters.cell_sizes)
-          table.add(row(
-            run_finite(parameters,
-                       make_mesh_parameters(parameters, cell_size, is_graded),
-                       degree,
-                       load)));
-      };
-      finite(1, false);
-      finite(2, false);
-      finite(2, true);
-      for (const unsigned int n : parameters.increments)
-        table.add(
-          row(run_incremental(parameters,
-                              make_mesh_parameters(parameters,
-                                                   parameters.cell_size,
-                                                   /* is_graded = */ true),
-                              load,
-                              n)));
-    }
-    table.write(prefix + "study.csv");
-  }
-
-
-  // The mesh moved and turned at random: the error must not depend on luck.
-  void
-  run_placements(Parameters parameters)
-  {
-    Tutorial::Table table;
-    for (const Tutorial::Placement &placement : Tutorial::random_placements(
-           parameters.n_placements, parameters.seed, parameters.cell_size))
-    {
-      parameters.offset   = placement.offset;
-      parameters.rotation = placement.rotation;
-      for (const Load load : loads)
-        table.add(row(run_finite(parameters,
-                                 make_mesh_parameters(parameters,
-                                                      parameters.cell_size,
-                                                      /* is_graded = */ true),
-                                 2,
-                                 load)));
-    }
-    table.print_ranges("Mesh moved and turned at random, both loads",
-                       {"cell_size_m", "error", "iterations"});
+    add_tip(0., 0., 0.);
+    statics.run(
+      NMM::LoadSteps::equal(n_steps),
+      [&](const NMM::LoadStep &step, const TrilinosWrappers::MPI::Vector &u) {
+        const double K            = parameters.last_load * step.load_factor;
+        const auto [w_tip, u_tip] = model.tip({model.covers, model.problem, u});
+        add_tip(K, w_tip, u_tip);
+        const auto k = std::lround(n_steps * step.load_factor);
+        if (step.is_asked && k % 4 == 0)
+          add_outline(K, u);
+      });
+    const std::string ending = "-" + name(load) + ".csv";
+    tip.write(parameters.prefix + "tip" + ending);
+    shapes.write(parameters.prefix + "shapes" + ending);
   }
 } // namespace StepNMM2
 
@@ -413,21 +434,14 @@ int
 main(int argc, char **argv)
 {
   using namespace StepNMM2;
-  return Tutorial::run(
-    argc,
-    argv,
-    [](const std::string &parameter_file, const std::string &output_directory) {
+  return Tutorial::run<Parameters>(
+    "step-nmm-2", argc, argv, [](const Parameters &parameters) {
       Tutorial::check_that_there_is_one_rank("step-nmm-2");
-      const Parameters parameters = read_parameters(parameter_file);
-      Tutorial::make_output_directory(output_directory);
-
-      const std::string prefix = output_directory + "/step-nmm-2-";
-      run_study(parameters, prefix);
+      run_study(parameters);
       run_placements(parameters);
-      std::map<Load, Curves> curves;
       for (const Load load : loads)
-        curves[load] = compute_curves(parameters, load);
-      write_curves(prefix, curves);
-      draw_figures(prefix);
+        write_curves(parameters, load);
+      std::ofstream(parameters.prefix + "reference.csv") << cantilever_csv;
+      Tutorial::draw_figures(parameters.prefix, figures_gp);
     });
 }

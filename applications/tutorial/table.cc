@@ -62,6 +62,14 @@ namespace Tutorial
   }
 
 
+  Row
+  operator+(Row first, const Row &second)
+  {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+  }
+
+
   double
   number(const Row &row, const std::string &column)
   {

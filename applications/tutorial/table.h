@@ -35,6 +35,10 @@ namespace Tutorial
   /// Columns and their values, in the order of the table.
   using Row = std::vector<std::pair<std::string, Value>>;
 
+  /// The columns of both.
+  Row
+  operator+(Row first, const Row &second);
+
   /// The number in a column. @throws std::out_of_range without such a column.
   double
   number(const Row &row, const std::string &column);

@@ -1,10 +1,11 @@
 // The cantilever of the paper's Fig. 10, as in step-nmm-2.
 
+#include "step-nmm-2/cantilever.h"
+
 #include <nmm/materials/material_law.h>
 
 #include "staged_model.h"
 #include "step-nmm-2/incremental_elasticity.h"
-#include "step-nmm-2/study.h"
 
 namespace NMM
 {
@@ -31,8 +32,8 @@ namespace NMM
       {
         GradedMeshParameters mesh;
         mesh.cell_size = cantilever.cell_size;
-        mesh.offset    = parameters.offset;
-        mesh.rotation  = parameters.rotation;
+        mesh.offset    = parameters.placement.offset;
+        mesh.rotation  = parameters.placement.rotation;
         for (const double y : {0., parameters.height})
         {
           LocalSize corner;
@@ -72,16 +73,19 @@ namespace NMM
       }
 
 
+      /// -v / L by K.
+      using Deflections = std::map<double, double>;
+
       /// What all kinematics have in common; @p solve fills in the deflections.
       Row
       run(const Cantilever                 &cantilever,
           const std::string                &kinematics,
           const std::function<void(StagedModel &,
-                                   StepNMM2::Measurement &,
+                                   Deflections &,
                                    const StepNMM2::Parameters &,
                                    Row &)> &solve)
       {
-        const StepNMM2::Parameters parameters = StepNMM2::read_parameters("");
+        const StepNMM2::Parameters parameters;
         Row                        row;
         row.name       = "cantilever " + StepNMM2::name(cantilever.load);
         row.method     = "manifold refined";
@@ -97,11 +101,9 @@ namespace NMM
                           options,
                           row);
         model.problem = problem_of(cantilever, parameters);
-        StepNMM2::Measurement measurement;
-        measurement.load = cantilever.load;
-        solve(model, measurement, parameters, row);
-        StepNMM2::compare(measurement);
-        row.error = measurement.largest_error;
+        Deflections deflections;
+        solve(model, deflections, parameters, row);
+        row.error = StepNMM2::largest_error(cantilever.load, deflections);
         return row;
       }
 
@@ -123,7 +125,7 @@ namespace NMM
         return run(cantilever,
                    "finite",
                    [](StagedModel                &model,
-                      StepNMM2::Measurement      &measurement,
+                      Deflections                &deflections,
                       const StepNMM2::Parameters &parameters,
                       Row                        &row) {
                      FiniteElasticity elasticity(*model.covers,
@@ -136,8 +138,7 @@ namespace NMM
                      statics.run(
                        LoadSteps::equal(parameters.n_load_steps),
                        [&](const LoadStep &step, const Vector &u) {
-                         measurement.deflection[parameters.last_load *
-                                                step.load_factor] =
+                         deflections[parameters.last_load * step.load_factor] =
                            deflection(model,
                                       parameters,
                                       {*model.covers, model.problem, u});
@@ -158,34 +159,32 @@ namespace NMM
       Row
       run_incremental(const Cantilever &cantilever)
       {
-        return run(cantilever,
-                   "incremental",
-                   [&](StagedModel                &model,
-                       StepNMM2::Measurement      &measurement,
-                       const StepNMM2::Parameters &parameters,
-                       Row                        &row) {
-                     StepNMM2::IncrementalElasticity elasticity(
-                       *model.covers,
-                       *model.quadrature,
-                       model.constraints,
-                       model.problem);
-                     const unsigned int n = cantilever.n_steps;
-                     row.solver           = "UMFPACK";
-                     for (unsigned int k = 1; k <= n; ++k)
-                     {
-                       elasticity.step(static_cast<double>(k) / n);
-                       if (parameters.n_load_steps * k % n == 0)
-                         measurement.deflection[parameters.last_load * k / n] =
-                           deflection(model,
-                                      parameters,
-                                      {*model.covers,
-                                       model.problem,
-                                       elasticity.displacements()});
-                     }
-                     model.lap();
-                     row.steps = row.iterations = n;
-                     row.total                  = model.total();
-                   });
+        return run(
+          cantilever,
+          "incremental",
+          [&](StagedModel                &model,
+              Deflections                &deflections,
+              const StepNMM2::Parameters &parameters,
+              Row                        &row) {
+            StepNMM2::IncrementalElasticity elasticity(*model.covers,
+                                                       *model.quadrature,
+                                                       model.constraints,
+                                                       model.problem);
+            const unsigned int              n = cantilever.n_steps;
+            row.solver                        = "UMFPACK";
+            for (unsigned int k = 1; k <= n; ++k)
+            {
+              elasticity.step(static_cast<double>(k) / n);
+              if (parameters.n_load_steps * k % n == 0)
+                deflections[parameters.last_load * k / n] = deflection(
+                  model,
+                  parameters,
+                  {*model.covers, model.problem, elasticity.displacements()});
+            }
+            model.lap();
+            row.steps = row.iterations = n;
+            row.total                  = model.total();
+          });
       }
 
 
@@ -196,7 +195,7 @@ namespace NMM
         return run(cantilever,
                    "small",
                    [](StagedModel                &model,
-                      StepNMM2::Measurement      &measurement,
+                      Deflections                &deflections,
                       const StepNMM2::Parameters &parameters,
                       Row                        &row) {
                      LinearSolverParameters direct;
@@ -210,8 +209,7 @@ namespace NMM
                                    model.elasticity->solution()});
                      const unsigned int n = parameters.n_load_steps;
                      for (unsigned int k = 1; k <= n; ++k)
-                       measurement.deflection[parameters.last_load * k / n] =
-                         w * k / n;
+                       deflections[parameters.last_load * k / n] = w * k / n;
                      row.steps = 1.;
                    });
       }

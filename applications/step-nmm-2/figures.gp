@@ -1,16 +1,5 @@
-#include "study.h"
-#include "tutorial/tutorial.h"
-
-// @sect3{Figures}
-
-namespace StepNMM2
-{
-  using namespace dealii;
-
-  namespace
-  {
-    /// PREFIX stands for the path and the beginning of the files' names.
-    const char *const figures_script = R"(set datafile separator ','
+# PREFIX stands for the path and the beginning of the names of all files.
+set datafile separator ','
 set datafile missing 'nan'
 set terminal pngcairo size 1200,620 font 'DejaVu Sans,12'
 set output 'PREFIXshapes.png'
@@ -37,14 +26,15 @@ set yrange [0:0.9]
 set key top left
 do for [load in 'dead follower'] {
   set title load.' load'
-  r = 'PREFIXreference-'.load.'.csv'
+  r = 'PREFIXreference.csv'
+  of(value) = strcol(1) eq load ? value : NaN
   t = 'PREFIXtip-'.load.'.csv'
-  plot r skip 1 using 1:2 with lines lw 3 lc 'gray70' title 'Euler', \
-       r skip 1 using 1:3 with lines lw 3 lc 'gray70' notitle, \
-       r skip 1 using 1:4 with lines dt 2 lc 'black' title 'Reissner', \
-       r skip 1 using 1:5 with lines dt 2 lc 'black' notitle, \
-       r skip 1 using 1:6 with points pt 6 ps 1.5 lc 'dark-red' title 'solid, fitted (GetFEM)', \
-       r skip 1 using 1:7 with points pt 6 ps 1.5 lc 'dark-red' notitle, \
+  plot r using 2:(of($3)) with lines lw 3 lc 'gray70' title 'Euler', \
+       r using 2:(of($4)) with lines lw 3 lc 'gray70' notitle, \
+       r using 2:(of($6)) with lines dt 2 lc 'black' title 'Reissner', \
+       r using 2:(of($7)) with lines dt 2 lc 'black' notitle, \
+       r using 2:(of($8)) with points pt 6 ps 1.5 lc 'dark-red' title 'solid, fitted (GetFEM)', \
+       r using 2:(of($9)) with points pt 6 ps 1.5 lc 'dark-red' notitle, \
        t skip 1 using 1:2 with lines lw 1.5 lc 'blue' title 'manifold method, w/L', \
        t skip 1 using 1:3 with lines lw 1.5 lc 'skyblue' title 'manifold method, u/L'
 }
@@ -67,17 +57,3 @@ plot f skip 1 using 10:(row('dead', 'finite', 1, 'uniform')) pt 5 lc 'orange' ti
      f skip 1 using 10:(row('follower', 'finite', 2, 'graded')) pt 6 dt 2 lc 'blue' title 'the same, follower', \
      f skip 1 using 10:(row('dead', 'incremental', 2, 'graded')) pt 9 lc 'dark-red' title 'incremental, dead', \
      f skip 1 using 10:(row('follower', 'incremental', 2, 'graded')) pt 8 dt 2 lc 'dark-red' title 'incremental, follower'
-)";
-  } // namespace
-
-
-  void
-  draw_figures(const std::string &prefix)
-  {
-    Tutorial::draw_figures(prefix,
-                           figures_script,
-                           {"shapes.png",
-                            "curves.png",
-                            "error-against-time.png"});
-  }
-} // namespace StepNMM2

@@ -35,7 +35,6 @@
 #include "incremental_elasticity.h"
 #include <array>
 #include <cmath>
-#include <fstream>
 
 namespace StepNMM2
 {
@@ -441,7 +440,6 @@ main(int argc, char **argv)
       run_placements(parameters);
       for (const Load load : loads)
         write_curves(parameters, load);
-      std::ofstream(parameters.prefix + "reference.csv") << cantilever_csv;
-      Tutorial::draw_figures(parameters.prefix, figures_gp);
+      Tutorial::draw_figures(parameters.prefix, figures_gp, cantilever_csv);
     });
 }

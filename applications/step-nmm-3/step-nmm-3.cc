@@ -26,13 +26,14 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
-// `study.cc` has the parameters, Hertz's formulas, reference values of other programs and
-// files of results, `figures.cc` the figures. They are apart from this page since nothing of the
-// method is in them.
-#include "study.h"
-#include "tutorial/tutorial.h"
+// `hertz.cc` has the parameters, Hertz's formulas and the comparison with reference values, `figures.gp` the
+// figures. They are apart from this page since nothing of the method is in them.
+#include "disk_compression_csv.h"
+#include "figures_gp.h"
+#include "hertz.h"
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -122,8 +123,8 @@ namespace StepNMM3
   {
     NMM::GradedMeshParameters mesh;
     mesh.cell_size = std::max(parameters.cell_size, contact_size);
-    mesh.offset    = parameters.offset;
-    mesh.rotation  = parameters.rotation;
+    mesh.offset    = parameters.placement.offset;
+    mesh.rotation  = parameters.placement.rotation;
     for (const double y : heights)
     {
       NMM::LocalSize box;
@@ -222,6 +223,8 @@ namespace StepNMM3
   class Model
   {
   public:
+    using Vector = TrilinosWrappers::MPI::Vector;
+
     struct Setup
     {
       NMM::Geometry                   geometry;
@@ -232,7 +235,14 @@ namespace StepNMM3
       NMM::ContactParameters          contact;
     };
 
-    Model(Setup setup, Measurement &measurement);
+    Model(Setup setup);
+
+    // Equal load steps; what is done after each of them gets the load factor and the
+    // displacements.
+    using Action = std::function<void(double, const Vector &)>;
+
+    void
+    run(unsigned int n_steps, const Action &after_step);
 
     std::vector<PressurePoint>
     pressure_at_reference_places() const;
@@ -243,8 +253,15 @@ namespace StepNMM3
     std::array<double, 2>
     forces() const;
 
-    Stage
-    make_stage(const TrilinosWrappers::MPI::Vector &u) const;
+    Tutorial::Table
+    outlines() const;
+
+    Tutorial::Table
+    material_lines(const Vector &u) const;
+
+    Timer        timer;
+    double       cutting_time = 0., setup_time = 0., total_time = 0.;
+    unsigned int n_unknowns = 0, n_iterations = 0, n_cuts = 0;
 
     const NMM::ElasticityProblem               problem;
     std::unique_ptr<NMM::PhysicalMesh>         physical_mesh;
@@ -261,17 +278,16 @@ namespace StepNMM3
   };
 
 
-  Model::Model(Setup setup, Measurement &measurement)
+  Model::Model(Setup setup)
     : problem(std::move(setup.problem))
   {
-    Timer timer;
     physical_mesh =
       std::make_unique<NMM::PhysicalMesh>(std::move(setup.geometry));
     mathematical_mesh = std::make_unique<NMM::MathematicalMesh>(
       NMM::make_graded_mesh(*physical_mesh, setup.mesh, 2));
     manifold_mesh =
       std::make_unique<NMM::ManifoldMesh>(*mathematical_mesh, *physical_mesh);
-    measurement.cutting_time = timer.cpu_time();
+    cutting_time = timer.cpu_time();
 
     // The surface comes before aggregation and constraints: it makes the covers
     // of all faces relevant to every rank.
@@ -301,10 +317,23 @@ namespace StepNMM3
         setup.contact.slave_priority[region.block] = 1;
     contact =
       std::make_unique<NMM::Contact>(*surface, constraints, setup.contact);
-    statics = std::make_unique<NMM::ContactStatics>(*solid, *contact);
-    measurement.setup_time = timer.cpu_time() - measurement.cutting_time;
-    measurement.n_unknowns =
-      2 * (covers->n_covers() - aggregation.cover_to_root.size());
+    statics    = std::make_unique<NMM::ContactStatics>(*solid, *contact);
+    setup_time = timer.cpu_time() - cutting_time;
+    n_unknowns = 2 * (covers->n_covers() - aggregation.cover_to_root.size());
+  }
+
+
+  void
+  Model::run(const unsigned int n_steps, const Action &after_step)
+  {
+    statics->run(NMM::LoadSteps::equal(n_steps),
+                 [&](const NMM::ContactStep &step, const Vector &u) {
+                   n_iterations += step.n_iterations + step.n_lost_iterations;
+                   n_cuts += step.n_cuts;
+                   if (step.is_asked)
+                     after_step(step.load_factor, u);
+                 });
+    total_time = timer.cpu_time();
   }
 
 
@@ -377,56 +406,68 @@ namespace StepNMM3
 
   // Outlines come from the surface, which knows where its edges are; material
   // lines from the displacement field.
-  Stage
-  Model::make_stage(const TrilinosWrappers::MPI::Vector &u) const
+  Tutorial::Table
+  Model::outlines() const
   {
-    Stage       stage;
-    const auto &edges = surface->edges();
-    for (unsigned int e = 0; e < edges.size(); ++e)
-      if (!surface->is_rigid(e))
+    Tutorial::Table table;
+    for (unsigned int e = 0; e < surface->edges().size(); ++e)
+    {
+      if (surface->is_rigid(e))
+        continue;
+      constexpr unsigned int n = 4;
+      for (unsigned int i = 0; i <= n; ++i)
       {
-        constexpr unsigned int n = 4;
-        stage.outlines.emplace_back();
-        for (unsigned int i = 0; i <= n; ++i)
-          stage.outlines.back().push_back(surface->place(e, i / double(n)).x);
+        const Point<2> x = surface->place(e, i / double(n)).x;
+        table.add({{"x_m", x[0]}, {"y_m", x[1]}});
       }
+      table.add_break();
+    }
+    return table;
+  }
 
+
+  Tutorial::Table
+  Model::material_lines(const Vector &u) const
+  {
     const NMM::DisplacementField field(*covers, problem, u);
     constexpr unsigned int       n_lines = 4, n = 80;
     const auto                   owned = covers->locally_owned_elements();
     // line, position on it, and where the point is, for points in this rank's
     // elements
     std::vector<double> mine;
-    for (unsigned int direction = 0; direction < 2; ++direction)
-      for (unsigned int i = 0; i <= 2 * n_lines; ++i)
+    for (unsigned int line = 0; line < 2 * (2 * n_lines + 1); ++line)
+    {
+      const double a = (line / 2 / double(n_lines) - 1.) * 0.98;
+      const double b = std::sqrt(1. - a * a);
+      for (unsigned int k = 0; k <= n; ++k)
       {
-        const double       a    = (i / double(n_lines) - 1.) * 0.98;
-        const double       b    = std::sqrt(1. - a * a);
-        const unsigned int line = stage.material_lines.size();
-        stage.material_lines.emplace_back();
-        for (unsigned int k = 0; k <= n; ++k)
-        {
-          const double   c = (2. * k / n - 1.) * b * (1. - 1e-6);
-          const Point<2> x = direction == 0 ? Point<2>(a, c) : Point<2>(c, a);
-          const unsigned int element = manifold_mesh->find_element(x);
-          if (element == NMM::invalid_index || element < owned.first ||
-              element >= owned.second)
-            continue;
-          const Point<2> now =
-            x + field.displacement(element,
-                                   mathematical_mesh->real_to_reference(
-                                     manifold_mesh->cell(element), x));
-          mine.insert(mine.end(), {double(line), double(k), now[0], now[1]});
-        }
+        const double       c = (2. * k / n - 1.) * b * (1. - 1e-6);
+        const Point<2>     x = line % 2 == 0 ? Point<2>(a, c) : Point<2>(c, a);
+        const unsigned int element = manifold_mesh->find_element(x);
+        if (element == NMM::invalid_index || element < owned.first ||
+            element >= owned.second)
+          continue;
+        const Point<2> now =
+          x + field.displacement(element,
+                                 mathematical_mesh->real_to_reference(
+                                   manifold_mesh->cell(element), x));
+        mine.insert(mine.end(), {double(line), double(k), now[0], now[1]});
       }
+    }
     std::map<std::pair<double, double>, Point<2>> points;
     for (const auto &part : Utilities::MPI::all_gather(MPI_COMM_WORLD, mine))
       for (unsigned int i = 0; i < part.size(); i += 4)
         points[{part[i], part[i + 1]}] = Point<2>(part[i + 2], part[i + 3]);
-    for (const auto &[place, point] : points)
-      stage.material_lines[static_cast<unsigned int>(place.first)].push_back(
-        point);
-    return stage;
+    Tutorial::Table table;
+    double          last_line = 0.;
+    for (const auto &[place, x] : points)
+    {
+      if (place.first != last_line)
+        table.add_break();
+      last_line = place.first;
+      table.add({{"x_m", x[0]}, {"y_m", x[1]}});
+    }
+    return table;
   }
 
 
@@ -468,93 +509,98 @@ namespace StepNMM3
   }
 
 
+  // A quarter of the cylinder on a rigid plate.
+  Model::Setup
+  make_quarter_setup(const Parameters  &parameters,
+                     const double       contact_size,
+                     const double       half_width,
+                     const std::string &law,
+                     const double       approach)
+  {
+    const double R = parameters.radius;
+    Model::Setup setup;
+    setup.geometry  = make_quarter_disk(R);
+    setup.obstacles = {make_rigid_plate(R)};
+    setup.mesh =
+      make_mesh_parameters(parameters, contact_size, half_width, {-R});
+    setup.problem =
+      make_quarter_problem(parameters, NMM::material_law(law), approach);
+    return setup;
+  }
+
+
   // @sect3{Small strain: Hertz}
 
-  // The approach that belongs to a half-width is imposed in one step.
-  Measurement
-  run_hertz(const Parameters &parameters,
-            const double      half_width,
-            const double      contact_ratio,
-            const Enforcement enforcement)
+  // The approach that belongs to a half-width is imposed in one step. The points of the contact are appended to
+  // @p pressure.
+  Tutorial::Row
+  run_hertz(const Parameters           &parameters,
+            const double                half_width,
+            const double                contact_ratio,
+            const Enforcement           enforcement,
+            std::vector<PressurePoint> &pressure)
   {
     const Hertz  hertz = Hertz::from_half_width(parameters, half_width);
     const double size  = contact_ratio * half_width;
-
-    Measurement result;
-    result.enforcement  = enforcement;
-    result.half_width   = half_width;
-    result.contact_size = size;
-
-    Timer        timer;
-    Model::Setup setup;
-    setup.geometry  = make_quarter_disk(parameters.radius);
-    setup.obstacles = {make_rigid_plate(parameters.radius)};
-    setup.mesh      = make_mesh_parameters(parameters,
-                                      size,
-                                      1.1 * half_width,
-                                      {-parameters.radius});
-    setup.problem =
-      make_quarter_problem(parameters,
-                           NMM::material_law("St. Venant-Kirchhoff"),
-                           hertz.approach);
-    setup.is_linear = true;
+    Model::Setup setup = make_quarter_setup(parameters,
+                                            size,
+                                            1.1 * half_width,
+                                            "St. Venant-Kirchhoff",
+                                            hertz.approach);
+    setup.is_linear    = true;
     setup.contact =
       make_contact_parameters(parameters, enforcement, size, hertz.approach);
-    Model model(std::move(setup), result);
+    Model model(std::move(setup));
+    model.run(1, [](double, const Model::Vector &) {});
 
-    const double set_up = timer.cpu_time();
-    for (const NMM::ContactStep &step :
-         model.statics->run(NMM::LoadSteps::equal(1)))
-    {
-      ++result.n_steps;
-      result.n_iterations += step.n_iterations + step.n_lost_iterations;
-      result.n_augmentations += step.n_augmentations;
-      result.n_cuts += step.n_cuts;
-      result.penetration = step.contact.largest_penetration;
-    }
-    result.total_time    = timer.cpu_time();
-    result.solution_time = result.total_time - set_up;
-    result.pressure      = model.pressure_at_reference_places();
-    // a quarter has half of the contact
-    compare(hertz, 2. * model.forces()[0], result);
-    return result;
+    pressure = model.pressure_at_reference_places();
+    return Tutorial::Row{{"springs", name(enforcement)},
+                         {"half_width_m", half_width},
+                         {"size_over_b", contact_ratio},
+                         {"unknowns", model.n_unknowns},
+                         {"iterations", model.n_iterations}} +
+           // a quarter has half of the contact
+           compare(hertz, 2. * model.forces()[0], pressure) +
+           Tutorial::Row{{"cutting_s", model.cutting_time},
+                         {"covers_s", model.setup_time},
+                         {"total_s", model.total_time}};
   }
 
 
-  // The fastest of some runs: others share the caches.
-  Measurement
-  run_hertz_repeatedly(const Parameters &parameters,
-                       const double      half_width,
-                       const double      contact_ratio,
-                       const Enforcement enforcement)
-  {
-    Measurement best;
-    for (unsigned int i = 0; i < parameters.n_repetitions; ++i)
-    {
-      const Measurement now =
-        run_hertz(parameters, half_width, contact_ratio, enforcement);
-      if (i == 0 || now.total_time < best.total_time)
-        best = now;
-    }
-    return best;
-  }
-
-
-  std::vector<Measurement>
+  void
   run_hertz_study(const Parameters &parameters)
   {
-    std::vector<Measurement> measurements;
-    Tutorial::Table          table("Against Hertz; errors in percent");
+    Tutorial::Table table("Against Hertz; errors in percent"), points;
+    const auto      add = [&](const double      b,
+                         const Enforcement enforcement,
+                         const double      ratio) {
+      // the fastest of some runs: others share the caches
+      std::vector<PressurePoint> pressure;
+      Tutorial::Row              best;
+      for (unsigned int i = 0; i < parameters.n_repetitions; ++i)
+      {
+        const Tutorial::Row row =
+          run_hertz(parameters, b, ratio, enforcement, pressure);
+        if (i == 0 || number(row, "total_s") < number(best, "total_s"))
+          best = row;
+      }
+      table.add(best);
+      const Hertz hertz = Hertz::from_half_width(parameters, b);
+      for (const auto &[x, p, weight] : pressure)
+        if (x < 1.3 * b)
+          points.add({{"x_over_b", x / b},
+                      {"p_over_p0", p / hertz.peak},
+                      {"springs", name(enforcement)},
+                      {"half_width_m", b},
+                      {"size_over_b", ratio},
+                      {"error_over_p0", (p - hertz.pressure(x)) / hertz.peak}});
+    };
     for (const double half_width : parameters.half_widths)
       for (const Enforcement enforcement :
            {Enforcement::penalty, Enforcement::augmented})
         for (const double ratio : parameters.contact_ratios)
-        {
-          measurements.push_back(
-            run_hertz_repeatedly(parameters, half_width, ratio, enforcement));
-          table.add(hertz_row(measurements.back()));
-        }
-    return measurements;
+          add(half_width, enforcement, ratio);
+    points.write(parameters.prefix + "pressure.csv");
   }
 
 
@@ -562,20 +608,19 @@ namespace StepNMM3
   void
   run_placements(Parameters parameters)
   {
-    const auto placements = Tutorial::random_placements(parameters.n_placements,
-                                                        parameters.seed,
-                                                        parameters.cell_size);
     for (const double ratio : parameters.contact_ratios)
     {
       Tutorial::Table table;
-      for (const Tutorial::Placement &placement : placements)
+      for (const Tutorial::Placement &placement : Tutorial::random_placements(
+             parameters.n_placements, parameters.seed, parameters.cell_size))
       {
-        parameters.offset   = placement.offset;
-        parameters.rotation = placement.rotation;
-        table.add(hertz_row(run_hertz(parameters,
-                                      parameters.half_widths[0],
-                                      ratio,
-                                      Enforcement::augmented)));
+        std::vector<PressurePoint> pressure;
+        parameters.placement = placement;
+        table.add(run_hertz(parameters,
+                            parameters.half_widths[0],
+                            ratio,
+                            Enforcement::augmented,
+                            pressure));
       }
       table.print_ranges("The mesh moved and turned at random, augmented",
                          {"size_over_b",
@@ -592,69 +637,80 @@ namespace StepNMM3
 
   // @sect3{Large compression}
 
-  // Beyond small strain: the same quarter, with the neo-Hookean law and any
-  // deformation gradient, to an approach of 0.4 R.
-  Measurement
-  run_compression(const Parameters &parameters,
-                  const double      size,
-                  const Enforcement enforcement)
+  // Beyond small strain: the force against the approach, and what the tables have of it.
+  Tutorial::Row
+  compression_row(const Parameters               &parameters,
+                  const Enforcement               enforcement,
+                  const double                    size,
+                  const Model                    &model,
+                  const std::map<double, double> &forces)
   {
-    Measurement result;
-    result.enforcement  = enforcement;
-    result.contact_size = size;
-
-    Timer        timer;
-    const double step = parameters.approach / parameters.n_load_steps;
-    Model::Setup setup;
-    setup.geometry  = make_quarter_disk(parameters.radius);
-    setup.obstacles = {make_rigid_plate(parameters.radius)};
-    setup.mesh      = make_mesh_parameters(parameters,
-                                      size,
-                                      0.5 * parameters.radius,
-                                      {-parameters.radius});
-    setup.problem   = make_quarter_problem(parameters,
-                                         NMM::material_law("neo-Hookean"),
-                                         parameters.approach);
-    setup.contact =
-      make_contact_parameters(parameters, enforcement, size, 10. * step);
-    Model model(std::move(setup), result);
-
-    const double set_up = timer.cpu_time();
-    model.statics->run(
-      NMM::LoadSteps::equal(parameters.n_load_steps),
-      [&](const NMM::ContactStep &step, const TrilinosWrappers::MPI::Vector &) {
-        ++result.n_steps;
-        result.n_iterations += step.n_iterations + step.n_lost_iterations;
-        result.n_augmentations += step.n_augmentations;
-        result.n_cuts += step.n_cuts;
-        result.penetration = step.contact.largest_penetration;
-        if (step.is_asked)
-          result.forces[parameters.approach * step.load_factor] =
-            2. * model.forces()[0];
-      });
-    result.total_time    = timer.cpu_time();
-    result.solution_time = result.total_time - set_up;
-    compare_forces(parameters, result);
-    return result;
+    return Tutorial::Row{{"springs", name(enforcement)},
+                         {"contact_size_m", size},
+                         {"unknowns", model.n_unknowns},
+                         {"cuts", model.n_cuts},
+                         {"iterations", model.n_iterations},
+                         {"total_s", model.total_time}} +
+           compare_forces(parameters, forces);
   }
 
 
-  std::vector<Measurement>
-  run_compression_study(const Parameters &parameters, const std::string &prefix)
+  Tutorial::Row
+  force_row(const Parameters &parameters,
+            const double      approach,
+            const double      force)
   {
-    std::vector<Measurement> measurements;
-    Tutorial::Table          table(
+    const double R = parameters.radius;
+    return {{"approach_over_R", approach / R},
+            {"F_over_ER", force / (parameters.youngs_modulus * R)}};
+  }
+
+
+  // The same quarter with the neo-Hookean law and any
+  // deformation gradient, to an approach of 0.4 R; beside it, for the figure, Hertz.
+  void
+  run_compression_study(const Parameters &parameters)
+  {
+    Tutorial::Table table(
       "Quarter disk, neo-Hookean, rigid plate: relative "
-               "errors of the force");
+      "errors of the force"),
+      curves, hertz_curve;
+    const double step = parameters.approach / parameters.n_load_steps;
     for (const Enforcement enforcement :
          {Enforcement::penalty, Enforcement::augmented})
       for (const double size : parameters.compression_sizes)
       {
-        measurements.push_back(run_compression(parameters, size, enforcement));
-        table.add(compression_row(measurements.back()));
+        Model::Setup setup = make_quarter_setup(parameters,
+                                                size,
+                                                0.5 * parameters.radius,
+                                                "neo-Hookean",
+                                                parameters.approach);
+        setup.contact =
+          make_contact_parameters(parameters, enforcement, size, 10. * step);
+        Model                    model(std::move(setup));
+        std::map<double, double> forces;
+        model.run(parameters.n_load_steps,
+                  [&](const double load_factor, const Model::Vector &) {
+                    forces[parameters.approach * load_factor] =
+                      2. * model.forces()[0];
+                  });
+        table.add(
+          compression_row(parameters, enforcement, size, model, forces));
+        if (enforcement != Enforcement::augmented)
+          continue;
+        for (const auto &[approach, force] : forces)
+          curves.add(force_row(parameters, approach, force));
+        curves.add_break();
       }
-    table.write(prefix + "compression.csv");
-    return measurements;
+    for (unsigned int i = 1; i <= 40; ++i)
+    {
+      const Hertz hertz = Hertz::from_half_width(parameters, 0.01 * i);
+      if (hertz.approach <= parameters.approach)
+        hertz_curve.add(force_row(parameters, hertz.approach, hertz.force));
+    }
+    table.write(parameters.prefix + "compression.csv");
+    curves.write(parameters.prefix + "forces.csv");
+    hertz_curve.write(parameters.prefix + "hertz-forces.csv");
   }
 
 
@@ -663,53 +719,54 @@ namespace StepNMM3
   // A whole cylinder, two plates a thousand times as stiff, and springs as in
   // Table 1, or multipliers. One mathematical mesh covers all three bodies: where they share a
   // triangle, each has covers of its own.
-  PressResult
-  run_press(const Parameters &parameters,
-            const double      size,
-            const Enforcement enforcement)
+  void
+  run_press(const Parameters &parameters, const Enforcement enforcement)
   {
-    PressResult  press;
-    Measurement &result = press.measurement;
-    result.enforcement  = enforcement;
-    result.contact_size = size;
-
-    Timer        timer;
-    const double R = parameters.radius;
+    const double R = parameters.radius, size = parameters.press_size;
+    const double step = parameters.approach / parameters.n_load_steps;
     Model::Setup setup;
     setup.geometry = make_press(R);
     setup.mesh     = make_mesh_parameters(parameters, size, 0.5 * R, {-R, R});
     setup.problem  = make_press_problem(parameters);
-    const double step = parameters.approach / parameters.n_load_steps;
-    setup.contact     = make_contact_parameters(
+    setup.contact  = make_contact_parameters(
       parameters, enforcement, size, 10. * step, parameters.spring);
-    Model model(std::move(setup), result);
+    Model model(std::move(setup));
 
-    const double set_up = timer.cpu_time();
-    model.statics->run(NMM::LoadSteps::equal(parameters.n_load_steps),
-                       [&](const NMM::ContactStep              &step,
-                           const TrilinosWrappers::MPI::Vector &u) {
-                         ++result.n_steps;
-                         result.n_iterations +=
-                           step.n_iterations + step.n_lost_iterations;
-                         result.n_cuts += step.n_cuts;
-                         result.penetration = step.contact.largest_penetration;
-                         if (!step.is_asked)
-                           return;
-                         const std::array<double, 2> forces = model.forces();
-                         Stage stage = model.make_stage(u);
-                         stage.approach =
-                           parameters.approach * step.load_factor;
-                         stage.force = 0.5 * (forces[0] + forces[1]);
-                         stage.force_difference =
-                           std::abs(forces[0] - forces[1]);
-                         stage.pressure = model.current_pressure();
-                         result.forces[stage.approach] = stage.force;
-                         press.stages.push_back(std::move(stage));
-                       });
-    result.total_time    = timer.cpu_time();
-    result.solution_time = result.total_time - set_up;
-    compare_forces(parameters, result);
-    return press;
+    Tutorial::Table            pressure, hertz_pressure, curve;
+    std::vector<Tutorial::Row> stages;
+    std::map<double, double>   forces_of_approach;
+    unsigned int               n_drawn = 0;
+    model.run(parameters.n_load_steps,
+              [&](const double load_factor, const Model::Vector &u) {
+                const double approach = parameters.approach * load_factor;
+                const auto   forces   = model.forces();
+                const double force    = 0.5 * (forces[0] + forces[1]);
+                const auto   points   = model.current_pressure();
+                const Hertz  hertz    = Hertz::from_force(parameters, force);
+                stages.push_back(stage_row(approach, forces, hertz, points));
+                forces_of_approach[approach] = force;
+                curve.add(force_row(parameters, approach, force));
+                if (std::abs(4. * load_factor - std::round(4. * load_factor)) >
+                    1e-6)
+                  return;
+                add_stage(points, hertz, pressure, hertz_pressure);
+                const std::string prefix =
+                  parameters.prefix + "stage-" + std::to_string(++n_drawn);
+                if (enforcement != Enforcement::augmented)
+                  return;
+                model.outlines().write(prefix + "-outlines.csv");
+                model.material_lines(u).write(prefix + "-lines.csv");
+              });
+
+    Tutorial::Table table("The paper's press, " + name(enforcement));
+    table.add(compression_row(
+      parameters, enforcement, size, model, forces_of_approach));
+    Tutorial::Table stage_table("Its stages, beside Hertz at the same force");
+    for (const Tutorial::Row &stage : stages)
+      stage_table.add(stage);
+    pressure.write(parameters.prefix + name(enforcement) + "-stages.csv");
+    hertz_pressure.write(parameters.prefix + "stages-hertz.csv");
+    curve.write(parameters.prefix + "press-forces.csv");
   }
 } // namespace StepNMM3
 
@@ -720,27 +777,16 @@ int
 main(int argc, char **argv)
 {
   using namespace StepNMM3;
-  return Tutorial::run(
-    argc,
-    argv,
-    [](const std::string &parameter_file, const std::string &output_directory) {
-      const Parameters parameters = read_parameters(parameter_file);
-      Tutorial::make_output_directory(output_directory);
-      const std::string prefix = output_directory + "/step-nmm-3-";
-
-      const std::vector<Measurement> hertz = run_hertz_study(parameters);
+  return Tutorial::run<Parameters>(
+    "step-nmm-3", argc, argv, [](const Parameters &parameters) {
+      run_hertz_study(parameters);
       run_placements(parameters);
-      const std::vector<Measurement> compression =
-        run_compression_study(parameters, prefix);
-      std::vector<PressResult> press;
-      for (const Enforcement enforcement :
-           {Enforcement::penalty, Enforcement::augmented})
-      {
-        press.push_back(
-          run_press(parameters, parameters.press_size, enforcement));
-        print_press(parameters, press.back());
-      }
-      write_results(parameters, hertz, compression, press, prefix);
-      draw_figures(prefix);
+      run_compression_study(parameters);
+      // figures show what the last one leaves, with multipliers
+      run_press(parameters, Enforcement::penalty);
+      run_press(parameters, Enforcement::augmented);
+      Tutorial::draw_figures(parameters.prefix,
+                             figures_gp,
+                             disk_compression_csv);
     });
 }

@@ -112,10 +112,14 @@ namespace Tutorial
 
 
   void
-  draw_figures(const std::string &prefix, const std::string &script)
+  draw_figures(const std::string &prefix,
+               const std::string &script,
+               const std::string &reference)
   {
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
       return;
+    if (!reference.empty())
+      std::ofstream(prefix + "reference.csv") << reference;
     const std::string file_name = prefix + "figures.gp";
     const std::string commands =
       Utilities::replace_in_string(script, "PREFIX", prefix);

@@ -114,11 +114,14 @@ namespace Tutorial
 
   /**
    * Draw figures with gnuplot, on the first rank. @p script has the word PREFIX wherever @p prefix, the path and the
-   * beginning of all files' names, belongs; it is written to "PREFIXfigures.gp". A sentence says
+   * beginning of all files' names, belongs; it is written to "PREFIXfigures.gp", and the values of others to
+   * "PREFIXreference.csv" if there are any. A sentence says
    * which figures were drawn, or that gnuplot is missing.
    */
   void
-  draw_figures(const std::string &prefix, const std::string &script);
+  draw_figures(const std::string &prefix,
+               const std::string &script,
+               const std::string &reference = "");
 
 
   /**
@@ -146,7 +149,8 @@ namespace Tutorial
 
   /**
    * Draw figures with gnuplot, on the first rank. @p script has the word PREFIX wherever @p prefix, the path and the
-   * beginning of all files' names, belongs; it is written to "PREFIXfigures.gp". A sentence says
+   * beginning of all files' names, belongs; it is written to "PREFIXfigures.gp", and the values of others to
+   * "PREFIXreference.csv" if there are any. A sentence says
    * which of @p figures (names without the prefix) were drawn, or that gnuplot is missing.
    */
   void

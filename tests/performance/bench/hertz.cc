@@ -1,9 +1,10 @@
 // A cylinder on a rigid plate against Hertz, as in step-nmm-3.
 
+#include "step-nmm-3/hertz.h"
+
 #include <nmm/contact/contact_statics.h>
 
 #include "staged_model.h"
-#include "step-nmm-3/study.h"
 #include <support/coulomb.h>
 
 namespace NMM
@@ -70,8 +71,8 @@ namespace NMM
       {
         GradedMeshParameters mesh;
         mesh.cell_size    = parameters.cell_size;
-        mesh.offset       = parameters.offset;
-        mesh.rotation     = parameters.rotation;
+        mesh.offset       = parameters.placement.offset;
+        mesh.rotation     = parameters.placement.rotation;
         const double wide = 1.1 * half_width;
         LocalSize    box;
         box.kind         = LocalSize::Kind::box;
@@ -90,21 +91,22 @@ namespace NMM
               const Contact         &contact,
               Row                   &row)
       {
-        StepNMM3::Measurement measurement;
-        double                force = 0.;
+        std::vector<StepNMM3::PressurePoint> points;
+        double                               force = 0.;
         for (const ContactPoint &point : contact.points())
           if (point.master != invalid_index)
           {
             const auto place =
               model.surface->reference_place(point.edge, point.s);
-            measurement.pressure.push_back(
+            points.push_back(
               {std::abs(place.x[0]), point.pressure, point.weight});
             force += point.weight * point.pressure * std::abs(point.normal[1]);
           }
         // a quarter has half of the contact
-        StepNMM3::compare(hertz, 2. * force, measurement);
-        row.error             = measurement.pressure_error;
-        row.second_error      = std::abs(measurement.force_error);
+        const Tutorial::Row errors =
+          StepNMM3::compare(hertz, 2. * force, points);
+        row.error             = number(errors, "L2_p_%") / 100.;
+        row.second_error      = std::abs(number(errors, "force_%")) / 100.;
         row.error_kind        = "L2 of pressure";
         row.second_error_kind = "force";
       }
@@ -140,7 +142,7 @@ namespace NMM
       Row
       run(const Enforcement enforcement, const double ratio)
       {
-        const StepNMM3::Parameters parameters = StepNMM3::read_parameters("");
+        const StepNMM3::Parameters parameters;
         const double               R = parameters.radius, half_width = 0.1 * R;
         const StepNMM3::Hertz      hertz =
           StepNMM3::Hertz::from_half_width(parameters, half_width);

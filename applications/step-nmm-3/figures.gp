@@ -1,16 +1,5 @@
-#include "study.h"
-#include "tutorial/tutorial.h"
-
-// @sect3{Figures}
-
-namespace StepNMM3
-{
-  using namespace dealii;
-
-  namespace
-  {
-    /// PREFIX stands for the path and the beginning of the files' names.
-    const char *const figures_script = R"(set datafile separator ','
+# PREFIX stands for the path and the beginning of the names of all files.
+set datafile separator ','
 set terminal pngcairo size 1200,560 font 'DejaVu Sans,12'
 set grid
 set output 'PREFIXpressure.png'
@@ -43,7 +32,7 @@ set yrange [0:*]
 set key top left
 g = 'PREFIXforces.csv'
 plot 'PREFIXhertz-forces.csv' skip 1 using 1:2 with lines dt 2 lc 'black' title 'Hertz', \
-     'PREFIXreference.csv' skip 1 using 1:2 with points pt 6 ps 1.5 lc 'dark-red' title 'GetFEM', \
+     'PREFIXreference.csv' using 2:(strcol(1) eq 'neo_hookean' ? $3 : NaN) with points pt 6 ps 1.5 lc 'dark-red' title 'GetFEM', \
      g skip 1 using 1:2 with lines lw 1.5 lc 'blue' title 'manifold method', \
      'PREFIXpress-forces.csv' skip 1 using 1:2 with points pt 2 lc 'dark-green' title 'whole cylinder, plates of 1000 E'
 set xlabel 'seconds, 20 load steps'
@@ -54,8 +43,8 @@ set yrange [1e-5:1e-2]
 set format y '%.0e'
 set key top right
 c = 'PREFIXcompression.csv'
-plot c skip 1 using 8:(strcol(1) eq 'penalty' ? $9 : NaN) with linespoints pt 8 lc 'dark-red' title 'penalty', \
-     c skip 1 using 8:(strcol(1) eq 'augmented' ? $9 : NaN) with linespoints pt 7 lc 'blue' title 'augmented'
+plot c skip 1 using 6:(strcol(1) eq 'penalty' ? $7 : NaN) with linespoints pt 8 lc 'dark-red' title 'penalty', \
+     c skip 1 using 6:(strcol(1) eq 'augmented' ? $7 : NaN) with linespoints pt 7 lc 'blue' title 'augmented'
 unset multiplot
 unset logscale
 set format
@@ -69,7 +58,7 @@ set yrange [0:*]
 set key top left
 array stage[4] = ['0.1 m', '0.2 m', '0.3 m', '0.4 m']
 array colour[4] = ['orange', 'dark-green', 'blue', 'dark-red']
-plot for [i=1:4] 'PREFIXaugmented-stages-hertz.csv' skip 1 index i-1 using 1:($2/1000) with lines lw 1 lc rgb colour[i] notitle, \
+plot for [i=1:4] 'PREFIXstages-hertz.csv' skip 1 index i-1 using 1:($2/1000) with lines lw 1 lc rgb colour[i] notitle, \
      for [i=1:4] 'PREFIXpenalty-stages.csv' skip 1 index i-1 using 1:($2/1000) with points pt 6 ps 0.4 lc 'gray60' notitle, \
      for [i=1:4] 'PREFIXaugmented-stages.csv' skip 1 index i-1 using 1:($2/1000) with points pt 7 ps 0.4 lc rgb colour[i] title stage[i], \
      NaN with lines lc 'gray30' title 'Hertz', \
@@ -85,20 +74,7 @@ set ylabel 'y [m]'
 unset key
 do for [i=1:4] {
   set title 'top plate down by '.stage[i]
-  plot sprintf('PREFIXaugmented-stage-%d-lines.csv', i) skip 1 using 1:2 with lines lc 'gray60', \
-       sprintf('PREFIXaugmented-stage-%d-outlines.csv', i) skip 1 using 1:2 with lines lw 1.5 lc 'blue'
+  plot sprintf('PREFIXstage-%d-lines.csv', i) skip 1 using 1:2 with lines lc 'gray60', \
+       sprintf('PREFIXstage-%d-outlines.csv', i) skip 1 using 1:2 with lines lw 1.5 lc 'blue'
 }
 unset multiplot
-)";
-  } // namespace
-
-
-  void
-  draw_figures(const std::string &prefix)
-  {
-    Tutorial::draw_figures(
-      prefix,
-      figures_script,
-      {"pressure.png", "force.png", "stages.png", "shapes.png"});
-  }
-} // namespace StepNMM3

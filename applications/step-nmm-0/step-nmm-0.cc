@@ -297,7 +297,6 @@ main(int argc, char **argv)
 {
   return Tutorial::run(
     argc, argv, [](const std::string &, const std::string &output_directory) {
-      Tutorial::make_output_directory(output_directory);
       dealii::ConvergenceTable table;
       for (const double cell_size : {0.4, 0.2, 0.1, 0.05})
         StepNMM0::run(cell_size,

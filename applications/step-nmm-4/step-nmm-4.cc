@@ -23,18 +23,21 @@
 #include <nmm/mechanics/mass_matrix.h>
 #include <nmm/mechanics/solid_term.h>
 #include <nmm/mechanics/stress_recovery.h>
+#include <nmm/output/animation.h>
 #include <nmm/output/contact_output.h>
+#include <nmm/output/picture.h>
 #include <nmm/quadrature/element_quadrature.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
-// `study.cc` has the parameters, the tables, the comparison of runs that begin the same, and the
-// pictures. It is apart from this page since nothing of the method is in it.
-#include "study.h"
+// `runs.cc` compares runs that begin the same. It is apart from this page since nothing of the method is in it.
+#include "runs.h"
 #include "tutorial/tutorial.h"
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <iomanip>
 #include <memory>
 #include <sstream>
@@ -43,6 +46,59 @@ namespace StepNMM4
 {
   using namespace dealii;
   using NMM::CurvePiece;
+
+  // @sect3{Parameters}
+
+  // The paper's numbers, and what it does not say.
+  struct Parameters : Tutorial::ParameterFile
+  {
+    using ParameterFile::ParameterFile;
+
+    // [kg/m^3], [Pa], [-], [m/s^2]
+    double density = 2500., youngs_modulus = 1e9, poissons_ratio = 0.2,
+           gravity = 9.81;
+    // The paper's springs, 1,000,000 t/m, taken per length of a face [Pa/m].
+    double spring = get("Spring", 1e6 * 9806.65, positive);
+    // Dashpots, normal and along faces [Pa s/m].
+    double dashpot = get("Dashpot", 2e7, not_negative);
+    // Of the rock, times its stiffness [s]: a block's own vibrations, which steps do
+    // not resolve, end within a few milliseconds.
+    double damping = get("Rock damping", 1e-3, not_negative);
+
+    // Of layers [degrees], [m]; length of blocks along them [m].
+    double dip          = 30.;
+    double layer        = get("Layer", 2., Patterns::Double(0.5, 5.));
+    double block_length = get("Block length", 2.3, Patterns::Double(0.5, 10.));
+
+    // One run for each [degrees].
+    std::vector<double> friction_angles =
+      get<std::vector<double>>("Friction angles",
+                               {35., 20.},
+                               Patterns::List(Patterns::Double(0., 89.), 1));
+    // Longest step [s], and whether what falls is computed with half of it, too.
+    double step      = get("Time step", 0.01, positive);
+    bool   is_halved = get("Half step", true);
+    // What falls is computed once more with a friction angle that differs by this
+    // [degrees]; 0: it is not. Tells what of the end can be predicted at all.
+    double perturbation = get("Perturbation", 1e-7, not_negative);
+    // As many runs, with 1, 2, ... times this; if more than one, each with half of
+    // the step, too, to tell what the step does to their mean.
+    unsigned int n_perturbed =
+      get("Perturbed runs", 1u, Patterns::Integer(0, 1000));
+    // Runs end here, or at rest [s].
+    double end_time = get("End time", 12., positive);
+    // Rest: kinetic energy over what all would gain by falling as far as a block is
+    // wide, at most, for so long [s].
+    double rest = 1e-7, rest_duration = 0.5;
+    // Of pictures besides the begin, ascending; the last one is at the end [s].
+    std::vector<double> stages =
+      get<std::vector<double>>("Stages",
+                               {1., 2.},
+                               Patterns::List(not_negative, 0));
+    // Between frames of the animation and rows of the table on the screen [s].
+    double frame_interval = 0.1, row_interval = 0.5;
+  };
+
 
   // @sect3{Geometry}
 
@@ -164,6 +220,71 @@ namespace StepNMM4
   }
 
 
+  // @sect3{Pictures}
+
+  // Stages and the page that plays all frames, on the first rank, all in the same part of the plane.
+  class Film
+  {
+  public:
+    Film(const std::string &prefix, const double friction_angle)
+      : prefix(prefix)
+    {
+      std::ostringstream text;
+      text << "Slope, friction angle " << friction_angle << " degrees";
+      title                        = text.str();
+      parameters.quantity          = NMM::Quantity::displacement;
+      parameters.deformation_scale = 1.;
+      parameters.mesh_lines        = false;
+      parameters.picture_width     = 1200;
+      if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
+        return;
+      // an earlier run's frames
+      const std::string frames = prefix + "-animation.frames";
+      std::filesystem::remove(frames);
+      animation = std::make_unique<NMM::Animation>(frames);
+    }
+
+    void
+    add(const double time, const NMM::PictureData &data, const bool is_stage)
+    {
+      if (!animation)
+        return;
+      animation->add_frame(time, data);
+      if (!is_stage)
+        return;
+      std::ostringstream note;
+      note << title << ", t = " << std::fixed << std::setprecision(2) << time
+           << " s";
+      NMM::PictureFrame frame;
+      frame.view = std::make_pair(Point<2>(-33., -1.), Point<2>(21.5, 20.5));
+      NMM::draw_picture(data,
+                        parameters,
+                        note.str(),
+                        prefix + "-stage-" + std::to_string(++n_stages) +
+                          ".png",
+                        frame);
+    }
+
+    void
+    finish()
+    {
+      if (!animation)
+        return;
+      std::ofstream out(prefix + "-animation.html");
+      animation->write(out, title, parameters);
+      animation->discard();
+    }
+
+    // How pictures are coloured.
+    NMM::PictureParameters parameters;
+
+  private:
+    std::string                     prefix, title;
+    std::unique_ptr<NMM::Animation> animation;
+    unsigned int                    n_stages = 0;
+  };
+
+
   // @sect3{The model}
 
   // Everything from joints to forces, in the order it is made.
@@ -172,7 +293,7 @@ namespace StepNMM4
   public:
     Slope(const Parameters &parameters, double friction_angle);
 
-    Outcome
+    Run
     run(double step, const std::string &name);
 
   private:
@@ -196,15 +317,19 @@ namespace StepNMM4
     find_equilibrium();
 
     void
-    set_in_motion(NMM::TimeIntegrator &integrator,
-                  double               step,
-                  Outcome             &outcome);
+    set_in_motion(NMM::TimeIntegrator &integrator, Run &run);
 
     Vector
     relevant(const Vector &owned) const;
 
-    Row
-    make_row(const NMM::TimeIntegrator &integrator) const;
+    Point<2>
+    center_of_mass(const NMM::TimeIntegrator &integrator) const;
+
+    Tutorial::Row
+    row(const NMM::TimeIntegrator &integrator, const Point<2> &center) const;
+
+    Tutorial::Row
+    summary(const Run &run) const;
 
     NMM::PictureData
     draw(const Vector &u, const NMM::PictureParameters &output) const;
@@ -305,21 +430,14 @@ namespace StepNMM4
   // The wall, obstacle 1, is there until the time 0. The scheme conserves energy in the contacts, too, so that the account shows what
   // friction, dashpots and the damping of the rock take, and nothing else. Dozens of
   // points that stick or slip by turns can cost Newton's method many iterations.
-  Outcome
+  Run
   Slope::run(const double step, const std::string &name)
   {
-    Outcome outcome;
-    outcome.name           = name;
-    outcome.friction_angle = friction_angle;
-    outcome.step           = step;
-    outcome.n_blocks       = physical_mesh->n_blocks();
-    outcome.n_unknowns =
-      2 * (covers->n_covers() - aggregation.cover_to_root.size());
+    Run run;
+    run.name = name;
+    run.step = step;
 
-    Timer        timer;
-    const Vector u     = find_equilibrium();
-    outcome.start_time = timer.cpu_time();
-
+    const Vector         u = find_equilibrium();
     NMM::ContactTerm     touch(model->layout(), *contact, {{1, 0.}});
     NMM::MechanicalModel forces(model->layout(), {model.get(), &touch});
     NMM::TimeIntegrator  integrator(forces,
@@ -328,102 +446,141 @@ namespace StepNMM4
     integrator.initialize(u,
                           Vector(model->layout().locally_owned,
                                  MPI_COMM_WORLD));
-    set_in_motion(integrator, step, outcome);
-    outcome.motion_time = timer.cpu_time() - outcome.start_time;
-    outcome.finish();
-    return outcome;
+    set_in_motion(integrator, run);
+    return run;
   }
 
 
-  // Until nothing moves any more, or the end.
+  // Until nothing moves any more, or the end. A step of the history has a picture each tenth of a second, and a
+  // row on the screen each half of a second.
   void
-  Slope::set_in_motion(NMM::TimeIntegrator &integrator,
-                       const double         step,
-                       Outcome             &outcome)
+  Slope::set_in_motion(NMM::TimeIntegrator &integrator, Run &run)
   {
-    NMM::StepControlParameters steps;
-    steps.initial_step = step;
-    const NMM::StepControl control(steps);
-
-    Tutorial::Table on_screen("Run " + outcome.name + ": energies [J/m]", 10);
-    Film            film(parameters, outcome);
+    Tutorial::Table on_screen("Run " + run.name + ": energies [J/m]", 8);
+    Film            film(parameters.prefix + run.name, friction_angle);
     auto            next_stage = parameters.stages.begin();
-    double          next_frame = 0., next_row = 0., at_rest_since = -1.;
+    double          next_frame = 0., next_row = 0.;
     const auto      record = [&](const bool is_last) {
-      const Row row = make_row(integrator);
-      outcome.rows.push_back(row);
-      if (row.time >= next_row || is_last)
-        on_screen.add(cells(row));
-      while (next_row <= row.time)
+      const double time = integrator.state().time;
+      run.times.push_back(time);
+      run.centers.push_back(center_of_mass(integrator));
+      const Tutorial::Row step = row(integrator, run.centers.back());
+      run.history.add(step);
+      if (time >= next_row || is_last)
+        on_screen.add(step);
+      while (next_row <= time)
         next_row += parameters.row_interval;
 
       const bool is_stage =
-        row.time == 0. || is_last ||
-        (next_stage != parameters.stages.end() && row.time >= *next_stage);
-      if (!is_stage && row.time < next_frame)
+        time == 0. || is_last ||
+        (next_stage != parameters.stages.end() && time >= *next_stage);
+      if (!is_stage && time < next_frame)
         return;
-      const NMM::PictureData picture =
-        draw(relevant(integrator.state().u), film.output());
-      film.add_frame(row.time, picture);
-      if (is_stage)
-        film.draw_stage(row.time, picture);
-      while (next_frame <= row.time)
+      film.add(time,
+               draw(relevant(integrator.state().u), film.parameters),
+               is_stage);
+      while (next_frame <= time)
         next_frame += parameters.frame_interval;
-      while (next_stage != parameters.stages.end() && row.time >= *next_stage)
+      while (next_stage != parameters.stages.end() && time >= *next_stage)
         ++next_stage;
     };
 
-    const double rest = parameters.rest * parameters.density *
+    Timer                      timer;
+    NMM::StepControlParameters steps;
+    steps.initial_step = run.step;
+    const NMM::StepControl control(steps);
+    NMM::StepRecord        step;
+    const double           rest = parameters.rest * parameters.density *
                         parameters.gravity * block_size() *
                         physical_mesh->n_blocks() * block_size() * block_size();
+    double       at_rest_since = -1.;
+    bool         is_at_rest    = false;
+    unsigned int n_iterations = 0, n_cuts = 0;
     record(false);
-    NMM::StepRecord step_record;
-    while (!outcome.is_at_rest &&
-           control.advance(integrator, parameters.end_time, step_record))
+    while (!is_at_rest &&
+           control.advance(integrator, parameters.end_time, step))
     {
-      ++outcome.n_steps;
-      outcome.n_iterations +=
-        step_record.report.n_iterations + step_record.n_lost_iterations;
-      outcome.n_cuts += step_record.n_cuts;
-      const NMM::Account &account = integrator.account();
-      const double        time    = integrator.state().time;
-      if (account.kinetic > rest)
+      n_iterations += step.report.n_iterations + step.n_lost_iterations;
+      n_cuts += step.n_cuts;
+      const double time = integrator.state().time;
+      if (integrator.account().kinetic > rest)
         at_rest_since = -1.;
       else if (at_rest_since < 0.)
         at_rest_since = time;
-      outcome.is_at_rest =
+      is_at_rest =
         at_rest_since >= 0. && time - at_rest_since >= parameters.rest_duration;
-      record(outcome.is_at_rest || time >= parameters.end_time * (1. - 1e-12));
+      record(is_at_rest || time >= parameters.end_time * (1. - 1e-12));
     }
     film.finish();
+
+    constexpr double settlement = 0.05;
+    run.stands = is_at_rest && run.way_at(run.times.back()) < settlement;
+    run.row    = Tutorial::Row{{"run", run.name},
+                            {"stands", run.stands},
+                            {"is_at_rest", is_at_rest},
+                            {"end_time", run.times.back()},
+                            {"steps", run.times.size() - 1},
+                            {"cuts", n_cuts},
+                            {"iterations", n_iterations}} +
+              summary(run) +
+              Tutorial::Row{{"motion_seconds", timer.cpu_time()}};
   }
 
 
   // @sect3{What is reported}
 
-  Row
-  Slope::make_row(const NMM::TimeIntegrator &integrator) const
+  // A step: energies per unit thickness [J/m], and how deep blocks are in each other over their size [-].
+  // What penetrates without pressing is none of the contact's springs: the overlap counts it, too.
+  Tutorial::Row
+  Slope::row(const NMM::TimeIntegrator &integrator,
+             const Point<2>            &center) const
   {
     const NMM::Account &account = integrator.account();
-    Row                 row;
-    row.time          = integrator.state().time;
-    row.kinetic       = account.kinetic;
-    row.strain        = account.strain;
-    row.contact       = account.conditions;
-    row.dissipated    = account.dissipated;
-    row.external_work = account.external_work;
-    row.balance       = account.balance;
+    return {{"time", integrator.state().time},
+            {"x", center[0]},
+            {"y", center[1]},
+            {"kinetic", account.kinetic},
+            {"external_work", account.external_work},
+            {"dissipated", account.dissipated},
+            {"balance", account.balance},
+            {"penetration_over_block",
+             contact->report().largest_penetration / block_size()},
+            {"overlap_over_block", surface->largest_overlap() / block_size()}};
+  }
 
-    const NMM::ContactReport &report = contact->report();
-    row.n_stick                      = report.n_stick;
-    row.n_slip                       = report.n_slip;
-    row.penetration                  = report.largest_penetration;
-    row.penetration_over_block       = row.penetration / block_size();
-    // what penetrates without pressing is none of the contact's springs
-    row.overlap            = surface->largest_overlap();
-    row.overlap_over_block = row.overlap / block_size();
 
-    // the density is the same everywhere
+  // What the table of runs has of the history: the largest error of the account over the potential energy released
+  // until the end, and penetrations.
+  Tutorial::Row
+  Slope::summary(const Run &run) const
+  {
+    const double released      = run.history.column("external_work").back();
+    double       account_error = 0.;
+    for (const double balance : run.history.column("balance"))
+      account_error = std::max(account_error, std::abs(balance));
+    if (released != 0.)
+      account_error /= std::abs(released);
+    const Extent penetration(run.history.column("penetration_over_block")),
+      overlap(run.history.column("overlap_over_block"));
+    return {{"account_error", account_error},
+            {"largest_penetration", penetration.largest},
+            {"penetration_at_rest", penetration.last},
+            {"largest_overlap", overlap.largest},
+            {"overlap_at_rest", overlap.last},
+            {"median_penetration", penetration.median},
+            {"median_overlap", overlap.median},
+            {"blocks", physical_mesh->n_blocks()},
+            {"unknowns",
+             2 * (covers->n_covers() - aggregation.cover_to_root.size())},
+            {"released", released},
+            {"way", run.way_at(run.times.back())}};
+  }
+
+
+  // The density is the same everywhere.
+  Point<2>
+  Slope::center_of_mass(const NMM::TimeIntegrator &integrator) const
+  {
     const NMM::ManifoldMesh     &mesh = *meshes.manifold_mesh;
     const NMM::DisplacementField field(*covers,
                                        problem,
@@ -446,8 +603,7 @@ namespace StepNMM4
       }
     }
     Utilities::MPI::sum(local, MPI_COMM_WORLD, sums);
-    row.center_of_mass = Point<2>(sums[1] / sums[0], sums[2] / sums[0]);
-    return row;
+    return Point<2>(sums[1] / sums[0], sums[2] / sums[0]);
   }
 
 
@@ -465,6 +621,46 @@ namespace StepNMM4
                      data);
     return data;
   }
+
+
+  // @sect3{The study}
+
+  // What falls is computed once more with half of the step, and with friction angles that are nearly the same.
+  void
+  run_study(const Parameters &parameters)
+  {
+    std::vector<Run> runs;
+    const auto       add = [&](const double       friction_angle,
+                         const std::string &name,
+                         const bool         is_halved) {
+      runs.push_back(Slope(parameters, friction_angle)
+                       .run((is_halved ? 0.5 : 1.) * parameters.step,
+                            name + (is_halved ? "-half-step" : "")));
+    };
+    const unsigned int n_perturbed =
+      parameters.perturbation > 0. ? parameters.n_perturbed : 0;
+    for (const double friction_angle : parameters.friction_angles)
+    {
+      std::ostringstream name;
+      name << std::setprecision(12) << friction_angle;
+      add(friction_angle, name.str(), false);
+      if (runs.back().stands)
+        continue;
+      if (parameters.is_halved)
+        add(friction_angle, name.str(), true);
+      for (unsigned int k = 1; k <= n_perturbed; ++k)
+      {
+        const double perturbed = friction_angle + k * parameters.perturbation;
+        const std::string run_name =
+          name.str() + "-perturbed" +
+          (n_perturbed == 1 ? "" : "-" + std::to_string(k));
+        add(perturbed, run_name, false);
+        if (n_perturbed > 1 && parameters.is_halved)
+          add(perturbed, run_name, true);
+      }
+    }
+    report_runs(parameters.prefix, runs);
+  }
 } // namespace StepNMM4
 
 
@@ -473,46 +669,8 @@ namespace StepNMM4
 int
 main(int argc, char **argv)
 {
-  using namespace StepNMM4;
-  return Tutorial::run(
-    argc,
-    argv,
-    [](const std::string &parameter_file, const std::string &output_directory) {
-      const Parameters parameters =
-        read_parameters(parameter_file, output_directory);
-      Tutorial::make_output_directory(output_directory);
-
-      std::vector<Outcome> outcomes;
-      for (const double friction_angle : parameters.friction_angles)
-      {
-        std::ostringstream number;
-        number << std::setprecision(12) << friction_angle;
-        const std::string name = number.str();
-        outcomes.push_back(
-          Slope(parameters, friction_angle).run(parameters.step, name));
-        if (outcomes.back().stands())
-          continue;
-        if (parameters.is_halved)
-          outcomes.push_back(
-            Slope(parameters, friction_angle)
-              .run(0.5 * parameters.step, name + "-half-step"));
-        const unsigned int n_perturbed =
-          parameters.perturbation > 0. ? parameters.n_perturbed : 0;
-        for (unsigned int k = 1; k <= n_perturbed; ++k)
-        {
-          const double perturbed = friction_angle + k * parameters.perturbation;
-          const std::string run_name =
-            name + "-perturbed" +
-            (n_perturbed == 1 ? "" : "-" + std::to_string(k));
-          outcomes.push_back(
-            Slope(parameters, perturbed).run(parameters.step, run_name));
-          if (n_perturbed > 1 && parameters.is_halved)
-            outcomes.push_back(
-              Slope(parameters, perturbed)
-                .run(0.5 * parameters.step, run_name + "-half-step"));
-        }
-      }
-      report_runs(output_directory + "/step-nmm-4-", outcomes);
-      print_means(outcomes);
-    });
+  return Tutorial::run<StepNMM4::Parameters>("step-nmm-4",
+                                             argc,
+                                             argv,
+                                             StepNMM4::run_study);
 }

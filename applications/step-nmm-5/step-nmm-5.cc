@@ -18,17 +18,52 @@
 #include <deal.II/base/function.h>
 #include <deal.II/base/timer.h>
 
-// `study.cc` has the parameters, Westergaard's exact solution and figures. It is apart from
-// this page since nothing of the method is in it.
-#include "study.h"
+// `westergaard.cc` has an exact solution, `figures.gp` the figures. They are apart from
+// this page since nothing of the method is in them.
+#include "figures_gp.h"
 #include "tutorial/table.h"
 #include "tutorial/tutorial.h"
+#include "westergaard.h"
 #include <cmath>
+#include <fstream>
+#include <iomanip>
 #include <iostream>
+#include <limits>
 
 namespace StepNMM5
 {
   using namespace dealii;
+
+  // @sect3{Parameters}
+
+  struct Parameters : Tutorial::ParameterFile
+  {
+    using ParameterFile::ParameterFile;
+
+    // Sizes of cells at the free radius of the tip over that radius [-].
+    std::vector<double> gradings =
+      get<std::vector<double>>("Gradings",
+                               {0.5, 0.35, 0.25, 0.175, 0.125},
+                               positive_list);
+    // Sizes of cells of uniform meshes [m].
+    std::vector<double> cell_sizes =
+      get<std::vector<double>>("Cell sizes",
+                               {0.2, 0.1, 0.05, 0.025},
+                               positive_list);
+    // Lengths of the increments in the beam [in].
+    std::vector<double> increments =
+      get<std::vector<double>>("Increments", {0.4, 0.2, 0.1}, positive_list);
+    // Size of its cells [in], and like gradings [-].
+    double beam_cell_size = get("Beam cell size", 0.5, positive);
+    double beam_grading   = get("Beam grading", 0.25, positive);
+    // Number of the wings' increments, 0 to leave that part out, and their length [m].
+    unsigned int n_wing_increments =
+      get("Wing increments", 6u, Patterns::Integer(0));
+    double wing_increment = get("Wing increment", 0.05, positive);
+    // Until when the slope is followed [s]; 0 to leave that part out.
+    double slope_end_time = get("Slope end time", 2.5, not_negative);
+  };
+
 
   // @sect3{A solid with cracks}
 
@@ -250,7 +285,7 @@ namespace StepNMM5
   // Second order with a cover of the tip, on graded meshes, and on meshes that know nothing of
   // the tip; first order on graded ones.
   void
-  run_study(const Parameters &parameters, const std::string &prefix)
+  run_study(const Parameters &parameters)
   {
     Tutorial::Table table(
       "A crack in an infinite plane (Westergaard); relative errors");
@@ -270,7 +305,7 @@ namespace StepNMM5
       add(cell_size, Tips::as_meshed, 0., 2);
     for (const double grading : parameters.gradings)
       add(0.4 * grading, Tips::graded, 0.5 * grading, 1);
-    table.write(prefix + "study.csv");
+    table.write(parameters.prefix + "study.csv");
   }
 
 
@@ -315,6 +350,32 @@ namespace StepNMM5
       {std::cos(angle) * direction[0] - std::sin(angle) * direction[1],
        std::sin(angle) * direction[0] + std::cos(angle) * direction[1]});
   }
+
+
+  // The way of the crack through the beam.
+  struct CrackPath
+  {
+    std::string criterion;
+    // Length of an increment [in].
+    double                increment = 0.;
+    std::vector<Point<2>> points;
+    // At which each increment grows, over that of the first one [-].
+    std::vector<double> loads;
+    // Curve at which it ends; empty: it did not arrive anywhere.
+    std::string end;
+
+    // Where it passes the height @p y [in]; not a number if it does not.
+    double
+    x_at(const double y) const
+    {
+      for (unsigned int i = 1; i < points.size(); ++i)
+        if (points[i - 1][1] <= y && y <= points[i][1])
+          return points[i - 1][0] + (y - points[i - 1][1]) /
+                                      (points[i][1] - points[i - 1][1]) *
+                                      (points[i][0] - points[i - 1][0]);
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+  };
 
 
   // The loop. Everything is proportional to the load, so the load at which the crack of this
@@ -393,22 +454,49 @@ namespace StepNMM5
     beam->draw("A crack by " + name + ", increments of " +
                  std::to_string(increment).substr(0, 4) + " in",
                1.5,
-               parameters.output_directory + "/step-nmm-5-beam.png");
+               parameters.prefix + "beam.png");
     return path;
   }
 
 
-  std::vector<CrackPath>
+  // A table of the points of a path, and the same as a block for gnuplot: two empty lines apart from the next, and with a
+  // title.
+  void
+  write_path(const CrackPath &path,
+             Tutorial::Table &table,
+             std::ostream    &curves)
+  {
+    curves << '"' << path.criterion << ", " << path.increment << " in\"\n";
+    for (unsigned int i = 0; i < path.points.size(); ++i)
+    {
+      const Point<2> &x    = path.points[i];
+      Tutorial::Value load = "";
+      if (i < path.loads.size())
+        load = path.loads[i];
+      table.add({{"criterion", path.criterion},
+                 {"increment_in", path.increment},
+                 {"step", i},
+                 {"x_in", x[0]},
+                 {"y_in", x[1]},
+                 {"load", load}});
+      curves << x[0] << ' ' << x[1] << '\n';
+    }
+    curves << "\n\n";
+  }
+
+
+  void
   run_beam(const Parameters &parameters)
   {
-    std::vector<CrackPath> paths;
-    Tutorial::Table        table("The beam: paths of the crack [in]");
-    const auto             add = [&](const std::string          &name,
+    Tutorial::Table table("The beam: paths of the crack [in]"), points;
+    std::ofstream   curves(parameters.prefix + "paths.txt");
+    curves << std::setprecision(9);
+    const auto add = [&](const std::string          &name,
                          const NMM::GrowthCriterion &criterion) {
       for (const double increment : parameters.increments)
       {
-        paths.push_back(grow_crack(parameters, name, criterion, increment));
-        const CrackPath &path = paths.back();
+        const CrackPath path =
+          grow_crack(parameters, name, criterion, increment);
         table.add({{"criterion", name},
                    {"increment", increment},
                    {"increments", path.points.size() - 1},
@@ -416,11 +504,12 @@ namespace StepNMM5
                    {"ends at", path.end.empty() ? "nothing" : path.end},
                    {"end x", path.points.back()[0]},
                    {"end y", path.points.back()[1]}});
+        write_path(path, points, curves);
       }
     };
     add("hoop stress", NMM::HoopStressCriterion());
     add("local symmetry", NMM::LocalSymmetryCriterion());
-    return paths;
+    points.write(parameters.prefix + "paths.csv");
   }
 
 
@@ -452,7 +541,7 @@ namespace StepNMM5
     run(STEP_NMM_5_FLAW,
         {"Fracture/Increments=" + std::to_string(parameters.n_wing_increments),
          "Fracture/Increment=" + std::to_string(parameters.wing_increment)},
-        parameters.output_directory + "/step-nmm-5-flaw");
+        parameters.prefix + "flaw");
   }
 
 
@@ -466,12 +555,43 @@ namespace StepNMM5
   void
   run_slope(const Parameters &parameters)
   {
-    const std::string folder =
-      parameters.output_directory + "/step-nmm-5-slope";
+    const std::string folder = parameters.prefix + "slope";
     run(STEP_NMM_5_SLOPE,
         {"Time/End time=" + std::to_string(parameters.slope_end_time)},
         folder);
-    print_slope(folder);
+
+    const auto rows_of = [&](const std::string &name) {
+      std::ifstream file(folder + "/" + name + ".csv");
+      return Tutorial::read_csv(file);
+    };
+    const auto cells = [](const Tutorial::Record         &record,
+                          const std::vector<std::string> &columns) {
+      Tutorial::Row row;
+      for (const std::string &column : columns)
+        row.emplace_back(column, std::stod(record.at(column)));
+      return row;
+    };
+    Tutorial::Table growth("The slope: cracks that grow");
+    for (const Tutorial::Record &record : rows_of("growth"))
+      growth.add(cells(record, {"time", "x", "y", "end_x", "end_y"}) +
+                 Tutorial::Row{{"met", record.at("met")}});
+
+    // a row each quarter of a second
+    const auto states = rows_of("history"), probes = rows_of("probes-history");
+    Tutorial::Table motion("The slope: energies [J/m], way of the mass [m]");
+    double          next = 0.;
+    for (unsigned int i = 0; i < states.size() && i < probes.size(); ++i)
+      if (std::stod(states[i].at("time")) >= next - 1e-9 ||
+          i + 1 == states.size())
+      {
+        next += 0.25;
+        const double way = std::hypot(std::stod(probes[i].at("mass_x")),
+                                      std::stod(probes[i].at("mass_y")));
+        motion.add(
+          cells(states[i],
+                {"time", "kinetic", "dissipated", "fracture", "balance"}) +
+          Tutorial::Row{{"way", way}});
+      }
   }
 } // namespace StepNMM5
 
@@ -482,22 +602,15 @@ int
 main(int argc, char **argv)
 {
   using namespace StepNMM5;
-  return Tutorial::run(argc,
-                       argv,
-                       [](const std::string &parameter_file,
-                          const std::string &output_directory) {
-                         Tutorial::check_that_there_is_one_rank("step-nmm-5");
-                         const Parameters parameters =
-                           read_parameters(parameter_file, output_directory);
-                         Tutorial::make_output_directory(output_directory);
-                         const std::string prefix =
-                           output_directory + "/step-nmm-5-";
-                         run_study(parameters, prefix);
-                         write_paths(prefix, run_beam(parameters));
-                         draw_figures(prefix);
-                         if (parameters.n_wing_increments > 0)
-                           run_flaw(parameters);
-                         if (parameters.slope_end_time > 0.)
-                           run_slope(parameters);
-                       });
+  return Tutorial::run<Parameters>(
+    "step-nmm-5", argc, argv, [](const Parameters &parameters) {
+      Tutorial::check_that_there_is_one_rank("step-nmm-5");
+      run_study(parameters);
+      run_beam(parameters);
+      Tutorial::draw_figures(parameters.prefix, figures_gp);
+      if (parameters.n_wing_increments > 0)
+        run_flaw(parameters);
+      if (parameters.slope_end_time > 0.)
+        run_slope(parameters);
+    });
 }

@@ -16,6 +16,28 @@ namespace Tutorial
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Before anything is computed.
+    void
+    make_output_directory(const std::string &name)
+    {
+      try
+      {
+        std::filesystem::create_directories(name);
+      }
+      catch (const std::filesystem::filesystem_error &error)
+      {
+        AssertThrow(false,
+                    NMM::InputError("the folder for results cannot be made (" +
+                                      error.code().message() + ")",
+                                    name,
+                                    "name one that can be written to"));
+      }
+    }
+  } // namespace
+
+
   int
   run(const int                                                       argc,
       char                                                          **argv,
@@ -141,95 +163,6 @@ namespace Tutorial
                                  line.rfind('\'') - output.size());
         separator = ", ";
       }
-    std::cout << std::endl;
-  }
-
-
-  void
-  read_parameter_file(ParameterHandler  &prm,
-                      const std::string &file_name,
-                      const std::string &example)
-  {
-    if (file_name.empty())
-      return;
-    std::ifstream file(file_name);
-    AssertThrow(file,
-                NMM::InputError("the parameter file cannot be read",
-                                file_name,
-                                "check its name"));
-    try
-    {
-      prm.parse_input(file, file_name);
-    }
-    catch (const ExceptionBase &exception)
-    {
-      std::ostringstream reason;
-      exception.print_info(reason);
-      AssertThrow(false,
-                  NMM::InputError("the parameter file is wrong (" +
-                                    reason.str() + ")",
-                                  file_name,
-                                  "see " + example));
-    }
-  }
-
-
-  void
-  add_placements(ParameterHandler &prm,
-                 Tensor<1, 2>     &offset,
-                 double           &rotation,
-                 unsigned int     &n_placements,
-                 unsigned int     &seed)
-  {
-    prm.add_parameter("Offset", offset, "Of the mesh against the solid [m].");
-    prm.add_parameter("Rotation",
-                      rotation,
-                      "Of the mesh against the solid [degrees].");
-    prm.add_parameter("Placements",
-                      n_placements,
-                      "Number of random offsets and rotations.",
-                      Patterns::Integer(0));
-    prm.add_parameter("Seed", seed, "Of placements.", Patterns::Integer(0));
-  }
-
-
-  void
-  make_output_directory(const std::string &name)
-  {
-    try
-    {
-      std::filesystem::create_directories(name);
-    }
-    catch (const std::filesystem::filesystem_error &error)
-    {
-      AssertThrow(false,
-                  NMM::InputError("the folder for results cannot be made (" +
-                                    error.code().message() + ")",
-                                  name,
-                                  "name one that can be written to"));
-    }
-  }
-
-
-  void
-  draw_figures(const std::string              &prefix,
-               const std::string              &script,
-               const std::vector<std::string> &figures)
-  {
-    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
-      return;
-    const std::string file_name = prefix + "figures.gp";
-    std::ofstream(file_name)
-      << Utilities::replace_in_string(script, "PREFIX", prefix);
-    if (std::system(("gnuplot '" + file_name + "'").c_str()) != 0)
-    {
-      std::cout << "No figures: gnuplot is missing or failed; " << file_name
-                << " draws them" << std::endl;
-      return;
-    }
-    std::cout << "Figures:";
-    for (const std::string &figure : figures)
-      std::cout << (figure == figures.front() ? " " : ", ") << prefix << figure;
     std::cout << std::endl;
   }
 } // namespace Tutorial

@@ -6,12 +6,10 @@
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
-#include <deal.II/base/tensor.h>
 
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace Tutorial
 {
@@ -122,41 +120,6 @@ namespace Tutorial
   draw_figures(const std::string &prefix,
                const std::string &script,
                const std::string &reference = "");
-
-
-  /**
-   * Read @p file_name into the entries of @p prm; without a name the defaults are left.
-   * @throws NMM::InputError for a file that cannot be read or has errors; @p example is the file that
-   * the message names as an example.
-   */
-  void
-  read_parameter_file(dealii::ParameterHandler &prm,
-                      const std::string        &file_name,
-                      const std::string        &example);
-
-  /// Bind the entries "Offset" [m] and "Rotation" [degrees] of the mesh, and the number and the seed of
-  /// "Placements" at random, to the variables.
-  void
-  add_placements(dealii::ParameterHandler &prm,
-                 dealii::Tensor<1, 2>     &offset,
-                 double                   &rotation,
-                 unsigned int             &n_placements,
-                 unsigned int             &seed);
-
-  /// Make the folder for results before anything is computed. @throws NMM::InputError.
-  void
-  make_output_directory(const std::string &name);
-
-  /**
-   * Draw figures with gnuplot, on the first rank. @p script has the word PREFIX wherever @p prefix, the path and the
-   * beginning of all files' names, belongs; it is written to "PREFIXfigures.gp", and the values of others to
-   * "PREFIXreference.csv" if there are any. A sentence says
-   * which of @p figures (names without the prefix) were drawn, or that gnuplot is missing.
-   */
-  void
-  draw_figures(const std::string              &prefix,
-               const std::string              &script,
-               const std::vector<std::string> &figures);
 } // namespace Tutorial
 
 #endif

@@ -93,28 +93,19 @@ namespace StepNMM1
   NMM::ElasticityProblem
   make_problem(const Parameters &parameters)
   {
-    using Condition = NMM::BoundaryCondition;
+    using Type = NMM::BoundaryCondition::Type;
     NMM::ElasticityProblem problem;
-    problem.plane_state = NMM::PlaneState::plane_stress;
-    problem.materials   = {parameters.material};
-
-    Condition load;
-    load.name  = "pressure";
-    load.curve = "inner";
-    load.type  = Condition::Type::pressure;
-    load.value =
-      std::make_shared<Functions::ConstantFunction<2>>(parameters.pressure);
-    problem.boundary_conditions.push_back(load);
-
+    problem.plane_state         = NMM::PlaneState::plane_stress;
+    problem.materials           = {parameters.material};
+    problem.boundary_conditions = {
+      {"pressure",
+       "inner",
+       Type::pressure,
+       std::make_shared<Functions::ConstantFunction<2>>(parameters.pressure)}};
     if (parameters.ring != "full")
       for (const std::string cut : {"first cut", "last cut"})
-      {
-        Condition symmetry;
-        symmetry.name  = "symmetry on the " + cut;
-        symmetry.curve = cut;
-        symmetry.type  = Condition::Type::normal_displacement;
-        problem.boundary_conditions.push_back(symmetry);
-      }
+        problem.boundary_conditions.push_back(
+          {"symmetry on the " + cut, cut, Type::normal_displacement, nullptr});
 
     const double r = 0.5 * (parameters.inner_radius + parameters.outer_radius);
     const auto   hold = [&](const Point<2> &x, const bool in_x) {
@@ -177,6 +168,51 @@ namespace StepNMM1
   }
 
 
+  // The stress is that of the displacement, directly, or recovered from it, which is smooth.
+  void
+  measure_errors(const Parameters             &parameters,
+                 const NMM::ManifoldMesh      &mesh,
+                 const NMM::DisplacementField &field,
+                 const NMM::StressRecovery    &recovery,
+                 Tutorial::Table              *profile,
+                 Run                          &run)
+  {
+    const NMM::ThickRing  exact(parameters.inner_radius,
+                               parameters.outer_radius,
+                               parameters.pressure,
+                               parameters.material,
+                               NMM::PlaneState::plane_stress);
+    const NMM::ErrorNorms errors = NMM::compute_errors(
+      field,
+      [&](const Point<2> &x) { return exact.displacement(x); },
+      [&](const Point<2> &x) { return exact.stress(x); });
+    run.error_u      = errors.displacement;
+    run.error_stress = errors.stress;
+
+    const auto stress_of = [&](const auto &stresses) -> StressAt {
+      return [&](const Point<2> &x) {
+        const unsigned int element = mesh.find_element(x);
+        AssertThrow(element != NMM::invalid_index, ExcInternalError());
+        return stresses.stress(
+          element,
+          mesh.mathematical_mesh().real_to_reference(mesh.cell(element), x));
+      };
+    };
+    const StressAt direct = stress_of(field), recovered = stress_of(recovery);
+    run.error_hoop           = largest_hoop_error(exact, parameters, direct);
+    run.error_hoop_recovered = largest_hoop_error(exact, parameters, recovered);
+    if (profile == nullptr)
+      return;
+    const auto directly       = sample_hoop(parameters, 45., direct);
+    const auto after_recovery = sample_hoop(parameters, 45., recovered);
+    for (unsigned int k = 0; k < directly.size(); ++k)
+      profile->add({{"r_m", directly[k][0]},
+                    {"exact_Pa", exact.hoop_stress(directly[k][0])},
+                    {"direct_Pa", directly[k][1]},
+                    {"recovered_Pa", after_recovery[k][1]}});
+  }
+
+
   // A row of the table. An error falls like $n^{-q/2}$ with the number of unknowns $n$, where $q$ is
   // the order; it is known from the second mesh of a method on.
   Tutorial::Row
@@ -217,12 +253,6 @@ namespace StepNMM1
                       const unsigned int               degree,
                       Tutorial::Table                 *profile)
   {
-    const NMM::ThickRing exact(parameters.inner_radius,
-                               parameters.outer_radius,
-                               parameters.pressure,
-                               parameters.material,
-                               NMM::PlaneState::plane_stress);
-
     Run result;
     result.method = mesh_parameters.local_sizes.empty() ? "uniform" : "graded";
     result.degree = degree;
@@ -262,43 +292,15 @@ namespace StepNMM1
     elasticity.solve(NMM::LinearSolverParameters());
     clock.lap("solution");
 
-    // What follows is not part of the method but of its examination.
-    const NMM::DisplacementField field(covers, problem, elasticity.solution());
-    const NMM::ErrorNorms        errors = NMM::compute_errors(
-      field,
-      [&](const Point<2> &x) { return exact.displacement(x); },
-      [&](const Point<2> &x) { return exact.stress(x); });
-    const NMM::StressRecovery recovery(field, aggregation);
-
     // Covers with too little support are expressed through others: they have
     // rows in the matrix, but are no unknowns.
     result.n_unknowns =
       2 * (covers.n_covers() - aggregation.cover_to_root.size());
-    result.error_u       = errors.displacement;
-    result.error_stress  = errors.stress;
-    const auto stress_of = [&](const auto &stresses) -> StressAt {
-      return [&](const Point<2> &x) {
-        const unsigned int element = manifold_mesh.find_element(x);
-        AssertThrow(element != NMM::invalid_index, ExcInternalError());
-        return stresses.stress(
-          element,
-          mathematical_mesh.real_to_reference(manifold_mesh.cell(element), x));
-      };
-    };
-    const StressAt direct = stress_of(field), recovered = stress_of(recovery);
-    result.error_hoop = largest_hoop_error(exact, parameters, direct);
-    result.error_hoop_recovered =
-      largest_hoop_error(exact, parameters, recovered);
-    const auto profile_direct    = sample_hoop(parameters, 45., direct);
-    const auto profile_recovered = sample_hoop(parameters, 45., recovered);
-    for (unsigned int k = 0; k < profile_direct.size() && profile; ++k)
-    {
-      const auto [r, hoop] = profile_direct[k];
-      profile->add({{"r_m", r},
-                    {"exact_Pa", exact.hoop_stress(r)},
-                    {"direct_Pa", hoop},
-                    {"recovered_Pa", profile_recovered[k][1]}});
-    }
+
+    // What follows is not part of the method but of its examination.
+    const NMM::DisplacementField field(covers, problem, elasticity.solution());
+    const NMM::StressRecovery    recovery(field, aggregation);
+    measure_errors(parameters, manifold_mesh, field, recovery, profile, result);
     return result;
   }
 

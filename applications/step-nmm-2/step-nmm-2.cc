@@ -45,23 +45,14 @@ namespace StepNMM2
   // Four straight pieces with names: loads and supports are given on named
   // curves.
   NMM::Geometry
-  make_beam(const Parameters &parameters)
+  make_beam()
   {
-    const double   L          = parameters.length;
-    const double   H          = parameters.height;
-    const Point<2> corners[4] = {{0., 0.}, {L, 0.}, {L, H}, {0., H}};
-    const char    *names[4]   = {"bottom", "end", "top", "clamped"};
-    NMM::Geometry  geometry;
-    for (unsigned int i = 0; i < 4; ++i)
-    {
-      NMM::Curve curve;
-      curve.name   = names[i];
-      curve.role   = NMM::CurveRole::boundary;
-      curve.pieces = {
-        NMM::CurvePiece::segment(corners[i], corners[(i + 1) % 4])};
-      geometry.add(std::move(curve));
-    }
-    return geometry;
+    return NMM::parse_geometry(R"(
+      boundary name=bottom  LINESTRING (0 0, 10 0)
+      boundary name=end     LINESTRING (10 0, 10 1)
+      boundary name=top     LINESTRING (10 1, 0 1)
+      boundary name=clamped LINESTRING (0 1, 0 0))",
+                               "the beam");
   }
 
 
@@ -72,40 +63,29 @@ namespace StepNMM2
   NMM::ElasticityProblem
   make_problem(const Parameters &parameters, const Load load)
   {
-    using Condition = NMM::BoundaryCondition;
+    using Type     = NMM::BoundaryCondition::Type;
+    using Constant = Functions::ConstantFunction<2>;
     NMM::ElasticityProblem problem;
     problem.plane_state = NMM::PlaneState::plane_stress;
-    NMM::Material material;
-    material.name           = "beam";
-    material.youngs_modulus = parameters.youngs_modulus;
-    material.poissons_ratio = parameters.poissons_ratio;
-    material.law            = NMM::material_law("St. Venant-Kirchhoff");
-    problem.materials       = {material};
-
-    Condition clamped;
-    clamped.name = clamped.curve = "clamped";
-    clamped.type                 = Condition::Type::displacement;
-    problem.boundary_conditions.push_back(clamped);
-
+    problem.materials   = {
+        {"beam", parameters.youngs_modulus, parameters.poissons_ratio}};
+    problem.materials[0].law    = NMM::material_law("St. Venant-Kirchhoff");
+    problem.boundary_conditions = {
+      {"clamped", "clamped", Type::displacement, nullptr}};
+    const double half = 0.5 * parameters.force();
     for (const std::string side : {"top", "bottom"})
-    {
-      const double half = 0.5 * parameters.force();
-      Condition    condition;
-      condition.name = condition.curve = side;
       if (load == Load::follower)
-      {
-        condition.type  = Condition::Type::follower_pressure;
-        condition.value = std::make_shared<Functions::ConstantFunction<2>>(
-          side == "top" ? half : -half);
-      }
+        problem.boundary_conditions.push_back(
+          {side,
+           side,
+           Type::follower_pressure,
+           std::make_shared<Constant>(side == "top" ? half : -half)});
       else
-      {
-        condition.type  = Condition::Type::traction;
-        condition.value = std::make_shared<Functions::ConstantFunction<2>>(
-          std::vector<double>{0., -half});
-      }
-      problem.boundary_conditions.push_back(condition);
-    }
+        problem.boundary_conditions.push_back(
+          {side,
+           side,
+           Type::traction,
+           std::make_shared<Constant>(std::vector<double>{0., -half})});
     return problem;
   }
 
@@ -153,7 +133,7 @@ namespace StepNMM2
           const Load                       load)
       : parameters(parameters)
       , mesh(mesh)
-      , physical_mesh(make_beam(parameters))
+      , physical_mesh(make_beam())
       , mathematical_mesh(
           mesh.local_sizes.empty()
             ? NMM::make_regular_mesh(physical_mesh, mesh, degree)

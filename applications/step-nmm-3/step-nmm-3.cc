@@ -44,73 +44,31 @@ namespace StepNMM3
 
   // @sect3{Geometry}
 
-  void
-  add_curve(NMM::Geometry     &geometry,
-            const std::string &name,
-            const CurvePiece  &piece,
-            const std::string &material)
-  {
-    NMM::Curve curve;
-    curve.name     = name;
-    curve.role     = NMM::CurveRole::boundary;
-    curve.pieces   = {piece};
-    curve.material = material;
-    geometry.add(std::move(curve));
-  }
-
-
   // By symmetry a quarter is enough as long as the plates are rigid: here the
   // lower right one. The arc stays an arc, and its normals are those of a circle.
   NMM::Geometry
-  make_quarter_disk(const double radius)
+  make_quarter_disk()
   {
-    const double  R = radius, s = std::sqrt(0.5) * radius;
-    NMM::Geometry geometry;
-    add_curve(geometry,
-              "arc",
-              CurvePiece::arc({0., -R}, {s, -s}, {R, 0.}),
-              "cylinder");
-    add_curve(geometry,
-              "middle",
-              CurvePiece::segment({R, 0.}, {0., 0.}),
-              "cylinder");
-    add_curve(geometry,
-              "axis",
-              CurvePiece::segment({0., 0.}, {0., -R}),
-              "cylinder");
-    return geometry;
+    return NMM::parse_geometry(R"(
+      boundary name=arc    material=cylinder CIRCULARSTRING (0 -1, 0.7071067811865476 -0.7071067811865476, 1 0)
+      boundary name=middle material=cylinder LINESTRING (1 0, 0 0)
+      boundary name=axis   material=cylinder LINESTRING (0 0, 0 -1))",
+                               "the quarter disk");
   }
 
 
   // The paper's set-up. The plates touch the circle in one point each; that is
   // no special case for an exact arrangement.
   NMM::Geometry
-  make_press(const double radius)
+  make_press()
   {
-    const double  R = radius, width = 1.2 * R, thickness = 0.4 * R;
-    NMM::Geometry geometry;
-    add_curve(geometry,
-              "cylinder",
-              CurvePiece::circle({0., 0.}, R),
-              "cylinder");
-    for (const std::string plate : {"bottom", "top"})
-    {
-      // the inner side is exactly tangent
-      const double lower = plate == "bottom" ? -R - thickness : R;
-      const double upper = plate == "bottom" ? -R : R + thickness;
-
-      const Point<2> corners[4] = {{-width, lower},
-                                   {width, lower},
-                                   {width, upper},
-                                   {-width, upper}};
-      const char    *names[4]   = {" lower", " right", " upper", " left"};
-      for (unsigned int i = 0; i < 4; ++i)
-        add_curve(geometry,
-                  plate + names[i],
-                  CurvePiece::segment(corners[i], corners[(i + 1) % 4]),
-                  "plate");
-    }
-    return geometry;
+    return NMM::parse_geometry(R"(
+      boundary name=cylinder material=cylinder CIRCLE (0 0, 1)
+      boundary name=lower  material=plate LINESTRING (-1.2 -1.4, 1.2 -1.4)
+      boundary name=bottom material=plate LINESTRING (1.2 -1.4, 1.2 -1, -1.2 -1, -1.2 -1.4)
+      boundary name=top    material=plate LINESTRING (-1.2 1.4, -1.2 1, 1.2 1, 1.2 1.4)
+      boundary name=upper  material=plate LINESTRING (1.2 1.4, -1.2 1.4))",
+                               "the press");
   }
 
 
@@ -148,16 +106,11 @@ namespace StepNMM3
   {
     NMM::ElasticityProblem problem;
     problem.plane_state = NMM::PlaneState::plane_strain;
-    for (const bool is_plate : {false, true})
-    {
-      NMM::Material material;
-      material.name = is_plate ? "plate" : "cylinder";
-      material.youngs_modulus =
-        is_plate ? parameters.plate_modulus : parameters.youngs_modulus;
-      material.poissons_ratio = parameters.poissons_ratio;
-      material.law            = law;
-      problem.materials.push_back(material);
-    }
+    problem.materials   = {
+        {"cylinder", parameters.youngs_modulus, parameters.poissons_ratio},
+        {"plate", parameters.plate_modulus, parameters.poissons_ratio}};
+    for (NMM::Material &material : problem.materials)
+      material.law = law;
     return problem;
   }
 
@@ -168,11 +121,11 @@ namespace StepNMM3
                 const NMM::BoundaryCondition::Type type,
                 const std::vector<double>         &value)
   {
-    NMM::BoundaryCondition condition;
-    condition.name = condition.curve = curve;
-    condition.type                   = type;
-    condition.value = std::make_shared<Functions::ConstantFunction<2>>(value);
-    problem.boundary_conditions.push_back(condition);
+    problem.boundary_conditions.push_back(
+      {curve,
+       curve,
+       type,
+       std::make_shared<Functions::ConstantFunction<2>>(value)});
   }
 
 
@@ -201,8 +154,8 @@ namespace StepNMM3
     NMM::ElasticityProblem problem =
       make_problem(parameters, NMM::material_law("neo-Hookean"));
     const auto type = NMM::BoundaryCondition::Type::displacement;
-    add_condition(problem, "bottom lower", type, {0., 0.});
-    add_condition(problem, "top upper", type, {0., -parameters.approach});
+    add_condition(problem, "lower", type, {0., 0.});
+    add_condition(problem, "upper", type, {0., -parameters.approach});
 
     NMM::FixedPoint middle;
     middle.point        = Point<2>(0., 0.);
@@ -519,7 +472,7 @@ namespace StepNMM3
   {
     const double R = parameters.radius;
     Model::Setup setup;
-    setup.geometry  = make_quarter_disk(R);
+    setup.geometry  = make_quarter_disk();
     setup.obstacles = {make_rigid_plate(R)};
     setup.mesh =
       make_mesh_parameters(parameters, contact_size, half_width, {-R});
@@ -725,7 +678,7 @@ namespace StepNMM3
     const double R = parameters.radius, size = parameters.press_size;
     const double step = parameters.approach / parameters.n_load_steps;
     Model::Setup setup;
-    setup.geometry = make_press(R);
+    setup.geometry = make_press();
     setup.mesh     = make_mesh_parameters(parameters, size, 0.5 * R, {-R, R});
     setup.problem  = make_press_problem(parameters);
     setup.contact  = make_contact_parameters(

@@ -166,18 +166,13 @@ namespace StepNMM4
   std::vector<NMM::RigidObstacle>
   make_obstacles()
   {
-    NMM::RigidObstacle ground;
-    ground.name                   = "ground";
-    const std::vector<Point<2>> p = {Point<2>(back[0], 40.),
-                                     back,
-                                     toe,
-                                     Point<2>(-80., 0.)};
-    for (unsigned int i = 0; i + 1 < p.size(); ++i)
-      ground.pieces.push_back(CurvePiece::segment(p[i], p[i + 1]));
-
-    NMM::RigidObstacle wall;
-    wall.name   = "wall";
-    wall.pieces = {CurvePiece::segment({0., -1.}, {0., 14.})};
+    NMM::RigidObstacle ground, wall;
+    ground.name   = "ground";
+    ground.pieces = {CurvePiece::segment({back[0], 40.}, back),
+                     CurvePiece::segment(back, toe),
+                     CurvePiece::segment(toe, {-80., 0.})};
+    wall.name     = "wall";
+    wall.pieces   = {CurvePiece::segment({0., -1.}, {0., 14.})};
     return {ground, wall};
   }
 
@@ -187,14 +182,12 @@ namespace StepNMM4
   NMM::ElasticityProblem
   make_problem(const Parameters &parameters)
   {
-    NMM::Material rock;
-    rock.name           = "rock";
-    rock.youngs_modulus = parameters.youngs_modulus;
-    rock.poissons_ratio = parameters.poissons_ratio;
-    rock.density        = parameters.density;
     NMM::ElasticityProblem problem;
     problem.plane_state = NMM::PlaneState::plane_strain;
-    problem.materials   = {rock};
+    problem.materials   = {{"rock",
+                            parameters.youngs_modulus,
+                            parameters.poissons_ratio,
+                            parameters.density}};
     problem.gravity     = Tensor<1, 2>({0., -parameters.gravity});
     return problem;
   }

@@ -117,7 +117,8 @@ namespace Tutorial
   {
     try
     {
-      prm->parse_input_from_string(text, "", skips_unknown);
+      std::istringstream input(text);
+      prm->parse_input(input, file_name, "", skips_unknown);
     }
     catch (const ExceptionBase &exception)
     {

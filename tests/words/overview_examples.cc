@@ -208,7 +208,8 @@ namespace
   mechanics(CoverSystem                &covers,
             const QuadratureCollection &quadrature,
             const Constraints          &constraints,
-            const ElasticityProblem    &problem)
+            const ElasticityProblem    &problem,
+            const Spring               &spring)
   {
     {
       // clang-format off
@@ -227,6 +228,17 @@ namespace
       NonlinearStatics statics(elasticity);
       statics.run(LoadSteps::equal(10));
       DisplacementField field(covers, problem, statics.solution());
+      // End
+      // clang-format on
+    }
+    {
+      // clang-format off
+      // Example of mechanics/elasticity_problem.h
+      FiniteElasticity elasticity(covers, quadrature, constraints, problem);
+      const auto solid = make_solid_at_rest(elasticity, Kinematics::finite);
+      SpringTerm springs(covers, solid->layout(), {spring});
+      NonlinearStatics statics(*solid, NewtonParameters(), {&springs});
+      statics.run(LoadSteps::equal(10));
       // End
       // clang-format on
     }
@@ -294,6 +306,7 @@ namespace
   {
     // clang-format off
     // Example of dynamics/time_integrator.h
+    // the rule of the masses is exact for polynomials of degree 2p
     FiniteSolid solid(elasticity, loading, make_mass_matrix(elasticity, mass_quadrature));
     ContactTerm touch(solid.layout(), contact);
     SpringTerm springs(covers, solid.layout(), {spring});

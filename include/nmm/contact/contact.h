@@ -197,7 +197,7 @@ namespace NMM
    * the stiffness is per length and does not depend on the mesh.
    *
    * Pressure and strength of each point are those of a ContactLaw; each pair of faces may have a law
-   * of its own (ContactParameters::pairs). To add a law, see there. The formulas here are those of
+   * of its own (ContactParameters::pairs). To add a law, see ContactLaw. The formulas here are those of
    * the default, CoulombLaw.
    *
    * Friction: the shear at a point is eps_t times its distance, along the master, from its anchor,

@@ -18,7 +18,7 @@ namespace NMM
    *
    * A physical cover is a connected component, per mathematical cover, of the
    * manifold elements in its support, joined across shared mathematical edges
-   * where no physical curve separates them (design, decision 1). The map
+   * where no physical curve separates them. The map
    * (element, local weight function) -> physical cover replaces deal.II's cell
    * dof indices; nothing is copied.
    *

@@ -18,8 +18,8 @@
  * Time integration of blocks that deform, touch and move. The forces are terms of the modules
  * before this one: see ForceTerm.
  *
- * **In**: a FiniteElasticity with the solid, a Loading with loads and supports as functions of
- * time, and, if blocks touch, a Contact. **Out**: displacements, velocities and accelerations
+ * **In**: a MechanicalModel, which is the sum of force terms (solid, contact, springs), with a mass
+ * matrix. **Out**: displacements, velocities and accelerations
  * after each step (DynamicState), and an account of energies and momenta (Account).
  *
  * | file (in nmm/dynamics) | job |
@@ -34,12 +34,13 @@
  *
  * Order of calls:
  * @code
+ * // the rule of the masses is exact for polynomials of degree 2p
  * FiniteSolid solid(elasticity, loading, make_mass_matrix(elasticity, mass_quadrature));
  * ContactTerm touch(solid.layout(), contact);            // only if blocks touch
  * SpringTerm springs(covers, solid.layout(), {spring});  // or a term of one's own, see ForceTerm
  * MechanicalModel model(solid.layout(), {&solid, &touch, &springs});
  * TimeIntegrator integrator(model, TimeScheme::energy_momentum());
- * integrator.initialize(u, v);                           // otherwise undeformed and at rest
+ * integrator.initialize(u, v);                           // else undeformed and at rest
  * StepControlParameters parameters;
  * parameters.initial_step = 1e-3;
  * StepControl(parameters).run(integrator, end_time, [&](const StepRecord &) {
@@ -47,6 +48,12 @@
  *   return true;                                         // go on
  * });
  * @endcode
+ *
+ * To add a scheme of the family of TimeScheme, write a function there that sets its coefficients;
+ * scenes know it by a word in TimeParameters::Scheme (nmm/scene/scene_parameters_dynamics.h). How
+ * forces and accelerations of a scheme are combined in a step is in source/dynamics/scheme_step.h
+ * (rates) and step_equations.h (residual and matrix): a scheme outside of the family, such as one
+ * of several stages, changes these two.
  */
 
 namespace NMM

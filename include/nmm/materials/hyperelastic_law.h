@@ -18,8 +18,9 @@ namespace NMM
    * The stretch of the third direction is s = 1 in plane strain; in plane stress
    * s follows from dW/ds = 0.
    *
-   * An initial stress S_0 of the material adds S_0 : E to W, E being the Green-Lagrange strain.
-   * At F = I a law has the stress S_0 and the moduli of PlaneElasticity.
+   * An initial stress S_0 of the material adds S_0 : E to W, E being the Green-Lagrange strain. Each
+   * law adds it itself: S_0 : E to W, first_stress(F, S_0) to P, and add_geometric_stiffness(S_0, A)
+   * to A. At F = I a law has the stress S_0 and the moduli of PlaneElasticity.
    *
    * A law has no state and allocates no memory. An evaluation takes some 50 to 200 operations.
    */
@@ -58,7 +59,8 @@ namespace NMM
     virtual double
     plane_strain_stress(const dealii::Tensor<2, 2> &F) const = 0;
 
-    /// Whether S = F^{-1} P is linear in the Green-Lagrange strain, with the moduli at rest.
+    /// Whether S = F^{-1} P is linear in the Green-Lagrange strain, with the moduli at rest, which
+    /// makes conserving steps cheaper. False is always right.
     virtual bool
     is_linear_in_green_strain() const = 0;
 

@@ -36,6 +36,10 @@
  * | loading.h | loads, releases and base acceleration as functions of time |
  * | mass_matrix.h | consistent mass matrix |
  * | material_vector.h | positions of material points as functions of the unknowns |
+ * | solid_layout.h | the unknowns of a solid |
+ * | disk_cover.h | functions of a crack tip or a hole on a disk |
+ * | carried_covers.h | displacements of a solid that has been cut further |
+ * | load_values.h | tractions and prescribed displacements at points |
  * | displacement_field.h, stress_recovery.h, block_motion.h | evaluation of a solution |
  * | error_norms.h, thick_ring.h | errors, and an exact solution to compare with |
  *
@@ -52,6 +56,18 @@
  * statics.run(LoadSteps::equal(10));
  * DisplacementField field(covers, problem, statics.solution());
  * @endcode
+ * Further forces, here springs, are a list of terms beside the solid:
+ * @code
+ * FiniteElasticity elasticity(covers, quadrature, constraints, problem);
+ * const auto solid = make_solid_at_rest(elasticity, Kinematics::finite);
+ * SpringTerm springs(covers, solid->layout(), {spring});
+ * NonlinearStatics statics(*solid, NewtonParameters(), {&springs});
+ * statics.run(LoadSteps::equal(10));
+ * @endcode
+ *
+ * To add a kind of force, see ForceTerm (force_term.h); SpringTerm is an example. A boundary
+ * condition of a new type goes into BoundaryCondition, and its integrals into
+ * source/mechanics/edge_tables.h.
  */
 
 namespace NMM

@@ -71,16 +71,17 @@ namespace NMM
   /// Properties of forces r(u, t) that solvers may exploit.
   struct ForceProperties
   {
-    /// Whether r is linear in u and its tangent changes at events only.
+    /// Whether r is linear in u, and its tangent changes at events only and not with the length of
+    /// a step.
     bool is_linear = true;
-    /// @{
-    /// Whether the tangents of forces at one time and of conserving forces are symmetric.
-    bool is_symmetric = true, is_symmetric_between = true;
-    /// @}
+    /// Whether the tangent of forces at one time is symmetric.
+    bool is_symmetric = true;
+    /// Whether that of conserving forces is.
+    bool is_symmetric_between = true;
   };
 
 
-  /// Which parts of a body are there.
+  /// Which parts of a body are present.
   struct Presence
   {
     /// Events up to and including this time have happened [s].
@@ -112,8 +113,12 @@ namespace NMM
   /**
    * Displacements for which forces are assembled, either those at one time, or the conserving
    * forces of a step. The work of conserving internal forces along u_1 - u_0 is the change of the
-   * strain energy, and they exert no moment in the mean position. Loads are then those of the mean
-   * time, and tangents are derivatives with respect to the mean displacement at fixed u_0.
+   * strain energy, and they exert no moment in the mean position. Loads are then taken at the middle
+   * of the step, and tangents are derivatives with respect to the mean displacement at fixed u_0.
+   *
+   * Trials of assemblies: statics and schemes with alpha_f = 0 use at(), generalized-alpha uses at()
+   * with u and t at 1 - alpha_f, and the conserving scheme step(). Only step(), and the trials of
+   * ForceTerm::commit() in motion, have a beginning.
    */
   struct Trial
   {
@@ -172,19 +177,25 @@ namespace NMM
   };
 
 
-  /// The sum of the forces r = internal forces - loads that terms have assembled. Each term adds
-  /// its own; vectors and matrices belong to the term that was the last to write them.
+  /**
+   * The sum of the forces r = internal forces - loads that terms have assembled. Each term adds
+   * its own. Pointers are to data of the term that has assembled last; a term without a matrix of
+   * its own leaves them alone and uses the sink. Numbers are those of all ranks together.
+   */
   struct AssembledForces
   {
     /// r on owned unknowns, 0 for constrained ones [N/m].
     dealii::TrilinosWrappers::MPI::Vector *residual = nullptr;
-    /// Magnitude of the forces that balance each other [N/m].
+    /// Magnitude of the forces that balance each other [N/m]: a term adds the square of its own
+    /// and takes the root. What is added to the sink is counted already.
     double scale = 0.;
-    /// Estimated norm of the rounding of the residual [N/m]; 0: it is not known.
+    /// Estimated norm of the rounding of the residual, added like the scale [N/m]; 0: it is not
+    /// known.
     double rounding = 0.;
     /// @{
     /// Stored energies of the material, and of displacement conditions, ties, springs and
-    /// contacts [J/m]; undefined for conserving forces, and unless Trial::with_energies.
+    /// contacts [J/m]. They are used if Trial::with_energies and not Trial::is_conserving; what is
+    /// added otherwise is ignored.
     double strain_energy = 0., energy_of_conditions = 0.;
     /// @}
     /// Where terms with couplings add forces and tangent; null: no term has couplings.
@@ -205,7 +216,7 @@ namespace NMM
   };
 
 
-  /// What the forces of a term do in a step [J/m].
+  /// What the forces of a term do in a step, on all ranks together [J/m].
   struct StepWork
   {
     /// Work of loads, the inertia forces of a moving base included.
@@ -226,8 +237,12 @@ namespace NMM
    * @f[ M\ddot u + C\dot u + r(u,t) = 0. @f]
    * A term knows no other term and no solver. Order of calls: begin_step(), assemble() as often
    * as needed, find_fault(), and commit() if the step is accepted; otherwise begin_step() again.
-   * A term that remembers nothing from step to step has only assemble() and properties(). All
-   * functions are collective.
+   * A term that remembers nothing from step to step needs only assemble() and properties(), and
+   * couplings() if it uses the sink. All functions are collective.
+   *
+   * Terms get no velocities: C is Rayleigh damping, which TimeIntegrator adds. A force that depends on
+   * the rate uses (end - begin) / (end_time - begin_time) of a conserving step; other trials have no
+   * rate, and it exerts no force in them.
    *
    * How to write one: derive a class from this one. Forces that do not depend on u are added to
    * AssembledForces::residual. A force that depends on the unknowns of a few covers, of whichever
@@ -269,7 +284,9 @@ namespace NMM
    * };
    * @endcode
    * A term with stored energy adds it to AssembledForces::energy_of_conditions, and if
-   * Trial::is_conserving its forces do the work of the change of that energy.
+   * Trial::is_conserving its forces do the work of the change of that energy. Where blocks may leave
+   * or be removed, set_presence() notes which of MaterialVector::blocks are absent, and assemble()
+   * leaves out what belongs to them. A term that uses only the sink is not derived from BlockTerm.
    *
    * The same terms act in motion (MechanicalModel, TimeIntegrator) and at rest: NonlinearStatics and
    * ContactStatics take a list of them. At rest the time is the load factor, Trial::begin is null,
@@ -278,7 +295,7 @@ namespace NMM
   class ForceTerm
   {
   public:
-    /// Distributed vector of displacements [m], velocities [m/s] or forces [N/m].
+    /// Distributed vector of displacements [m] or forces [N/m].
     using Vector = dealii::TrilinosWrappers::MPI::Vector;
     /// Distributed sparse matrix of the unknowns.
     using Matrix = dealii::TrilinosWrappers::SparseMatrix;
@@ -303,7 +320,7 @@ namespace NMM
     }
 
     /// Add the forces of a trial and, unless Trial::tangent is Tangent::none, their tangent to
-    /// @p sum, which has those of the terms before this one.
+    /// @p sum, which already contains those of the terms before this one.
     virtual Deformation
     assemble(const Trial &trial, AssembledForces &sum) = 0;
 
@@ -335,8 +352,8 @@ namespace NMM
     }
 
     /**
-     * Let there be stiffness-proportional damping with the @p coefficient [s]; asked of the solid
-     * only. A term whose conserving forces contain it from now on, and whose commit() returns the
+     * Let there be stiffness-proportional damping with the @p coefficient [s]. Only the solid is
+     * asked, and only its term overrides this. A term whose conserving forces contain it from now on, and whose commit() returns the
      * energy that it dissipates, returns null. Otherwise it returns the stiffness of the solid at
      * u = 0, without loads and without supports, which would be held back where they move [Pa]: the
      * caller adds the damping, which then does not rotate with a body. Overwrites the tangent.
@@ -346,7 +363,9 @@ namespace NMM
     damp_by_stiffness(double coefficient, bool is_conserving);
 
     /// @{
-    /// Save and restore all data besides u that a continuation needs; the same on all ranks.
+    /// Save and restore all data besides u that a continuation needs; the same on all ranks. The
+    /// archives are private to the library (source/base/archive.h), so that a term of a program's
+    /// own that remembers something cannot be continued from a checkpoint.
     virtual void
     save(internal::ByteWriter & /*archive*/) const
     {
@@ -366,7 +385,7 @@ namespace NMM
     }
 
     /// A hash of what the forces depend on, to verify that a saved state fits. It does not depend
-    /// on the number of ranks.
+    /// on the number of ranks. 0: the term is not verified.
     std::uint64_t
     fingerprint() const
     {

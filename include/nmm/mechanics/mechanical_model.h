@@ -49,7 +49,7 @@ namespace NMM
    * @endcode
    * What terms add to AssembledForces::sink is added last, and only if one of them has
    * ForceTerm::couplings(). Then it costs a copy of the residual in each assembly, and in those with
-   * a tangent a copy of that, unless it is a body matrix.
+   * a tangent a copy of the tangent, unless it is a body matrix.
    *
    * Lifetime: layout and terms must outlive this object.
    */
@@ -114,7 +114,7 @@ namespace NMM
     std::vector<double>
     events() const;
 
-    /// A hash of unknowns, elements, materials and contact, see ForceTerm::fingerprint().
+    /// The hash of all terms, see ForceTerm::fingerprint().
     std::uint64_t
     fingerprint() const;
 

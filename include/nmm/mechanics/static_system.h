@@ -14,10 +14,11 @@ namespace NMM
    * that NewtonSolver solves. Their time is the load factor lambda.
    *
    * The forces r_0 by which an initial stress is out of balance without loads, such as at the wall of
-   * an excavation, are released with the load factor, since friction and yielding depend on the way:
+   * an excavation, are released with the load factor, since friction and yielding depend on the
+   * loading path:
    * @f[ r(u) = \sum_\mathrm{terms} r_i(u) - \langle 1 - \lambda\rangle_+\,r_0. @f]
    * So a state that is in balance with all loads stays at rest in all load steps. What has been
-   * released once stays so.
+   * released is not held back again.
    *
    * Order of calls in a load step: set_load_factor(), assemble() as often as needed, commit() if the
    * step is accepted. ForceTerm::begin_step() is not called.

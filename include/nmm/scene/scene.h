@@ -28,8 +28,11 @@
  *    function `check` for what patterns cannot express. Errors are InputErrors.
  * 2. Scene makes the objects that the parameters describe: Geometry, MathematicalMesh,
  *    ElasticityProblem, Loading, ContactParameters.
- * 3. A SceneAnalysis (static, with load steps, dynamic, safety factor) combines them,
- *    solves, and writes the results.
+ * 3. A SceneAnalysis (source/scene: static, with load steps, crack growth, dynamic, relaxation,
+ *    safety factor) combines them, solves, and writes the results.
+ *
+ * To add a section: a struct with `list_entries` and `check` (nmm/scene/scene_parameters_*.h), a
+ * member of SceneParameters, and a function of Scene that makes the object of the library.
  *
  * @code
  *   const Scene scene("beam.prm", {"Mathematical mesh/Cell size=0.1"});

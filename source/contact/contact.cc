@@ -47,6 +47,7 @@ namespace NMM
       multiplier_space = std::make_unique<MultiplierSpace>(surface);
       memory.multipliers.assign(multiplier_space->size(), 0.);
       stiffening.assign(multiplier_space->size(), 1.);
+      is_stiff_enough.assign(multiplier_space->size(), false);
     }
     AssertThrow(parameters.initial_stress.empty() ||
                   parameters.initial_stress.size() == surface.edges().size(),
@@ -138,6 +139,7 @@ namespace NMM
     if (d.is_moving())
     {
       std::fill(d.stiffening.begin(), d.stiffening.end(), 1.);
+      d.is_stiff_enough.assign(d.stiffening.size(), false);
       d.last_penetrations.clear();
     }
     // What touches is found again, however deep it is and however little moves in the step.

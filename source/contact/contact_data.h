@@ -640,6 +640,8 @@ namespace NMM
     /// penetrations of the last update [m]. Neither is a part of the history: the solution depends on
     /// both within the tolerance only.
     std::vector<double> stiffening, last_penetrations;
+    /// By function of that space: whether its springs have been seen to be stiff enough.
+    std::vector<bool> is_stiff_enough;
 
     internal::ContactMemory memory;
     internal::ActiveBodies  active;

@@ -102,14 +102,18 @@ namespace NMM
   {
     // A ratio of successive penetrations above the first one is slow; springs are made so stiff that
     // it becomes the second one. The last two bound a change, and all changes, since a ratio near
-    // 1 is known badly.
+    // 1 is known badly. A good ratio shows once and for all that springs are stiff enough: later ones
+    // tell of faces that open and close at the rim of a contact, and stiffer springs would make the
+    // pressure there rough.
     constexpr double slow = 0.25, wanted = 0.1, most = 100., most_in_all = 1e6;
     std::vector<double> last = penetrations;
     for (unsigned int i = 0; i < last_penetrations.size(); ++i)
     {
       const double ratio = penetrations[i] / last_penetrations[i];
+      if (ratio > 0. && ratio <= slow)
+        is_stiff_enough[i] = true;
       if (!(penetrations[i] > parameters.penetration_tolerance) ||
-          !(ratio > slow && ratio < 1.))
+          is_stiff_enough[i] || !(ratio < 1.))
         continue;
       stiffening[i] *= std::min(most, (1. / wanted - 1.) / (1. / ratio - 1.));
       stiffening[i] = std::min(stiffening[i], most_in_all);
@@ -389,6 +393,7 @@ namespace NMM
   {
     Data &d = *data;
     d.stage = Data::Stage::created;
+    d.is_stiff_enough.assign(d.stiffening.size(), false);
     d.last_penetrations.clear();
     if (history.is_conserving)
       d.problem = Data::Problem::conserving_motion;

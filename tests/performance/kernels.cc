@@ -173,7 +173,7 @@ namespace
               [&]() {
                 local.reset(6, with_tangent);
                 const Deformation state =
-                  add_linear_terms(*hyperelastic, table, u, nullptr, local);
+                  add_volume_terms(*hyperelastic, table, u, nullptr, local);
                 sum += local.energy;
                 AssertThrow(state == Deformation::admissible,
                             dealii::ExcInternalError());

@@ -105,6 +105,8 @@ namespace NMM
         }
         for (unsigned int i = 0; i < rigid_obstacles.size(); ++i)
         {
+          if (is_body_absent[n_blocks + i])
+            continue;
           const Nearest nearest =
             nearest_of_obstacle(i, Point<2>(x.x(), x.y()));
           if (!nearest.is_open_end)

@@ -213,5 +213,10 @@ namespace
                 std::hypot(0.04, 0.05),
                 1e-12);
     EXPECT_EQ(overlap(none, none, Point<2>(0.22, 3.)), 0.);
+    // walls that have been released bound nothing
+    std::vector<bool> is_absent(bodies.surface.n_bodies(), false);
+    is_absent.back() = true;
+    bodies.surface.set_absent_bodies(is_absent);
+    EXPECT_EQ(overlap(none, none, Point<2>(0.22, 0.)), 0.);
   }
 } // namespace

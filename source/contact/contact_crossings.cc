@@ -76,6 +76,22 @@ namespace NMM
             action(time, std::clamp(t, 0., 1.));
         }
       }
+
+
+      StepFault
+      fault_of(const ContactSurface &surface,
+               const unsigned int    edge,
+               const Point<2>       &begin,
+               const std::string    &what,
+               const double          retry)
+      {
+        return {"a point of '" + surface.name(edge) + "', at " +
+                  to_string(begin) + " when the step begins, " + what,
+                "allow smaller steps, make what is hit thicker, or contact "
+                "stiffer; a sliver between two lines vanishes with "
+                "'Geometry/Small blocks = merge'",
+                retry};
+      }
     } // namespace
 
 
@@ -85,8 +101,9 @@ namespace NMM
       , bodies(surface.n_bodies())
       , least_thickness(std::numeric_limits<double>::max())
     {
-      // Parts of tau, see the class.
-      constexpr double reach_part = 0.5, circumference_part = 1. / 40.;
+      // Parts of tau and of the length of a corner, see the class.
+      constexpr double reach_part = 0.5, circumference_part = 1. / 40.,
+                       width_part = 0.2;
 
       const auto         &edges = surface.edges();
       std::vector<double> circumference(bodies.size(), 0.),
@@ -127,6 +144,12 @@ namespace NMM
         bodies[body].width         = area[body] > 0. && n == n_edges[body]
                                        ? 2. * area[body] / circumference[body]
                                        : circumference[body];
+        bodies[body].corner_length = tau;
+        if (area[body] > 0. && n == n_edges[body])
+          bodies[body].corner_length =
+            std::max(tau,
+                     std::min(circumference_part * circumference[body],
+                              width_part * bodies[body].width));
         // A straight line is the boundary of a half-plane.
         if (n_edges[body] == 1 && edges[first[body]].next == invalid_index &&
             edges[first[body]].radius == 0.)
@@ -503,9 +526,16 @@ namespace NMM
       const Place &in          = was_inside ? begin : path.first;
       const Place &out         = ends_inside ? end : path.last;
       const double tau         = std::min(body.tau, other.tau);
-      double       retry       = 0.;
-      std::string  what;
-      const auto   would_pass = [&](const std::string &where) {
+      const auto   is_touching = [&]() {
+        return is_in_contact(edge, other_number) ||
+               (s == 0. && edges[edge].previous != invalid_index &&
+                is_in_contact(edges[edge].previous, other_number));
+      };
+      // A point that is pushed out all the time and crosses no face is at most nearer to another one.
+      const bool  stays_inside = was_inside && is_inside && !path.crosses;
+      double      retry        = 0.;
+      std::string what;
+      const auto  would_pass = [&](const std::string &where) {
         return "that would pass " + where + " '" + surface->name(in.edge) +
                "' without being stopped";
       };
@@ -516,31 +546,23 @@ namespace NMM
                "', from which it would move so far that the ends of a face "
                "there are one and the same number";
       }
-      else if (!is_same_side(in, out, other.tau))
+      else if (!is_same_side(in, out, other.tau) &&
+               !(stays_inside && is_touching() &&
+                 is_same_side(in, out, other.corner_length)))
       {
         retry = entered + part * (left - entered);
         what  = would_pass(is_inside ? "beyond the middle of" : "through");
       }
       else if (-begin.gap < at_face * tau && is_inside && -end.gap > tau &&
-               !is_in_contact(edge, other_number) &&
-               !(s == 0. && edges[edge].previous != invalid_index &&
-                 is_in_contact(edges[edge].previous, other_number)))
+               !is_touching())
       {
         retry = entered + 0.5 * tau / -end.gap * (1. - entered);
         what  = would_pass("into");
       }
       if (retry == 0. || (fault.retry > 0. && fault.retry <= retry))
         return;
-      fault.retry = retry;
-      std::ostringstream text;
-      text << "a point of '" << surface->name(edge) << "', at "
-           << to_string(edges.front().start + Tensor<1, 2>(x_0))
-           << " when the step begins, " << what;
-      fault.reason = text.str();
-      fault.remedy =
-        "allow smaller steps, make what is hit thicker, or contact stiffer; a "
-        "sliver between two lines vanishes with 'Geometry/Small blocks = "
-        "merge'";
+      fault = fault_of(
+        *surface, edge, edges.front().start + Tensor<1, 2>(x_0), what, retry);
     }
 
 

@@ -39,10 +39,19 @@ namespace NMM
      * body if E and X are connected along the boundary by faces that look the same way as E (or X)
      * to within 32 degrees and at most a length tau of other faces, because points may pass by a
      * corner when blocks slide. Faces that meet in a point are connected there: the mouth of a crack
-     * in a face has no width, and a point that glides over it does not pass through the body. tau is half of the reach of the contact,
-     * and at most a fortieth of the body's circumference. A point that begins outside or at a face
-     * (less than tau/10 deep), ends deeper than tau, and is in contact with none of the body's
-     * faces then has been missed by the contact, and is treated as a crossing.
+     * in a face has no width, and a point that glides over it does not pass through the body. tau
+     * is half of the reach of the contact, and at most a fortieth of the body's circumference.
+     *
+     * Where corners meet, springs may be compressed by more than tau. A point in a corner, on the
+     * line of equal distance from both faces, then changes from E to X by the smallest motion, so
+     * that no step would succeed. If the point is inside during the whole step, crosses no face and
+     * the bodies are in contact there, tau is therefore replaced by
+     * @f$ \max(\tau, \min(P / 40, W / 5)) @f$ with the circumference P and the mean width
+     * W = 2 A/P: as for a long reach, but less than the thickness of a plate.
+     *
+     * A point that begins outside or at a face (less than tau/10 deep), ends deeper than tau, and
+     * is in contact with none of the body's faces then has been missed by the contact, and is
+     * treated as a crossing.
      *
      * A cheap test comes first. To cross a body, a point must move relative to it by the relevant
      * thickness: the smallest chord between places that are further apart than
@@ -99,7 +108,8 @@ namespace NMM
     private:
       struct Body
       {
-        double tau = 0., thickness = 0., width = 0., circumference = 0.;
+        double tau = 0., corner_length = 0., thickness = 0., width = 0.,
+               circumference = 0.;
         /// Motion in the last step: mean position, translation, largest other motion of a point,
         /// and rotation.
         dealii::Point<2>     center;

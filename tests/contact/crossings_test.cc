@@ -121,6 +121,9 @@ TEST(ContactCrossings, StraightThroughAPlate)
   EXPECT_EQ(crossing.find(shifted(0., -0.503), shifted(0., 0.3)).reason, "");
   EXPECT_EQ(crossing.find(shifted(0., -0.503), shifted(1.5, -0.503)).reason,
             "");
+  // what presses does not hold the square on the side from which it came
+  EXPECT_NE(
+    crossing.find(shifted(0., -0.503), shifted(0., -0.507), true).reason, "");
 }
 
 
@@ -151,6 +154,50 @@ TEST(ContactCrossings, CornersOfObstacles)
   Crossing crossing(square, box({0.4, -0.51}, {0.6, -0.5}));
   EXPECT_NE(crossing.find(shifted(0., 0.), shifted(0., -3.)).reason, "");
   EXPECT_EQ(crossing.find(shifted(0., 0.), shifted(3., -1.5)).reason, "");
+}
+
+
+// The corner of the square, pressed 0.03 m into that of the plate, is 0.028 to 0.032 m from both of
+// its faces: more than half of the reach. Which of them is nearer changes by the smallest motion. A
+// plate of 2.03 m is not thinner there than elsewhere, and a fortieth of the circumference is 0.1 m
+// of the square and 0.2 m of the plate.
+TEST(ContactCrossings, DeepInACorner)
+{
+  Crossing   crossing(square, box({-2., -2.}, {0.03, 0.03}));
+  const auto reason = [&](const double depth, const bool is_in_contact) {
+    const double shift = 0.03 - depth;
+    return crossing
+      .find(shifted(shift + 0.002, shift - 0.002),
+            shifted(shift - 0.002, shift + 0.002),
+            is_in_contact)
+      .reason;
+  };
+  EXPECT_EQ(reason(0.03, true), "");
+  EXPECT_EQ(reason(0.09, true), "");
+  EXPECT_NE(reason(0.12, true).find("beyond the middle"), std::string::npos);
+  // what is not in contact has been missed
+  EXPECT_NE(reason(0.03, false), "");
+  // in through one face and out through the other one, 0.08 m from the corner
+  EXPECT_NE(
+    crossing.find(shifted(0.1, -0.12), shifted(-0.12, 0.1), true).reason, "");
+}
+
+
+// The corner of the square in a wedge of 20 degrees, 2 m long, 0.296 m wide in the mean: it may pass
+// the middle of the wedge a fifth of that from the tip, and not where the wedge is thicker.
+TEST(ContactCrossings, TipOfAWedge)
+{
+  const double half = 2. * std::tan(10. * dealii::numbers::PI / 180.);
+  Crossing     crossing(square, {{0., 0.}, {-2., half}, {-2., -half}});
+  const auto   reason = [&](const double x, const bool is_in_contact) {
+    return crossing.find(shifted(-x, -0.002), shifted(-x, 0.002), is_in_contact)
+      .reason;
+  };
+  EXPECT_EQ(reason(0.02, true), "");
+  EXPECT_EQ(reason(0.05, true), "");
+  EXPECT_NE(reason(0.05, false), "");
+  EXPECT_NE(reason(0.07, true), "");
+  EXPECT_NE(reason(0.5, true), "");
 }
 
 

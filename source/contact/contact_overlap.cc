@@ -19,16 +19,31 @@ namespace NMM
                                      const Tensor<1, 2>    &normal,
                                      const Tensor<1, 2>    &other_normal) const
     {
-      const auto &at     = surface->edges()[edge];
-      double      result = -std::numeric_limits<double>::max();
-      for (const auto &[neighbor, corner] :
-           {std::make_pair(at.previous, at.at_start),
-            std::make_pair(at.next, at.at_end)})
+      constexpr auto smooth = ContactSurface::Corner::smooth;
+      const auto    &edges  = surface->edges();
+      double         result = -std::numeric_limits<double>::max();
+      for (const unsigned int end : {0U, 1U})
       {
-        double t;
-        Place  place;
-        if (corner != ContactSurface::Corner::convex ||
-            !find_nearest(neighbor, x, t, place))
+        const auto &at = edges[edge];
+        if ((end == 0 ? at.at_start : at.at_end) !=
+            ContactSurface::Corner::convex)
+          continue;
+        // The face round the corner, as far as the point is beyond its edges.
+        unsigned int next = end == 0 ? at.previous : at.next;
+        double       t;
+        Place        place;
+        bool         is_found = false, is_beyond = true;
+        while (next != invalid_index && is_beyond)
+        {
+          is_found          = find_nearest(next, x, t, place);
+          const auto &round = edges[next];
+          is_beyond         = end == 0 ? t < 0. : t > 1.;
+          if ((end == 0 ? round.at_start : round.at_end) != smooth)
+            break;
+          if (is_beyond)
+            next = end == 0 ? round.previous : round.next;
+        }
+        if (!is_found)
           continue;
         const double gap = (x - place.x) * place.normal();
         if (gap >= 0. && can_separate(place.normal(), normal, other_normal))

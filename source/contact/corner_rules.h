@@ -173,6 +173,8 @@ namespace NMM
        *   ContactSearch::project_corner(): ContactScales.TenDecadesOfWeightAndStiffness.
        * - A corner that is in front of the other face of the master's corner is outside,
        *   the same function: ContactDetection.RandomPolygonsAgainstBruteForce.
+       * - The same if the face round the corner begins with edges much shorter than the distance,
+       *   ContactSearch::gap_beyond_corner(): ContactDetection.CornerOnTheFaceRoundACorner.
        * - Of two faces that meet in a convex corner the one that faces the point more is taken,
        *   ContactSearch::project_within(): ContactPatch.InclinedJointsUnderHydrostaticPressure.
        * - A corner that touches only at one end of a step stays with the face of that end,

@@ -367,6 +367,62 @@ namespace
   }
 
 
+  /// The obtuse corner of a block lies on the right face of a wedge, as that of a kinked crack does
+  /// after the crack has met a joint. The face consists of edges of 5 cm, and of a shorter one at the
+  /// wedge's corner; the block's corner is 25 cm from there: in front of the face, hence not 25 cm
+  /// inside of the wedge behind the lower face, which the upper edge of the corner faces at 81
+  /// degrees. The other way round the wedge is as far.
+  TEST(ContactDetection, CornerOnTheFaceRoundACorner)
+  {
+    for (const double gap : {1e-6, 1e-3, -1e-6})
+      for (const double shortest : {0.04, 0.01, 1e-6})
+      {
+        SCOPED_TRACE(std::to_string(gap) + ", " + std::to_string(shortest));
+        Geometry geometry;
+        geometry.add_polygon(
+          {{gap, 0.25}, {0.1, -0.5}, {1., -0.5}, {1., 1.}, {0.2, 1.}}, "block");
+        Bodies::Options options;
+        options.cell_size           = 10.;
+        options.mesh_of_every_block = true;
+        std::vector<Point<2>> wedge = {{-2., 0.2}, {0., 0.}, {0., shortest}};
+        for (const double y : {0.05, 0.1, 0.15, 0.2, 1.})
+          wedge.emplace_back(0., y);
+        wedge.insert(wedge.end(),
+                     {{-1., 1.}, {-2., 1.}, {-2., 0.6}, {-2., 0.2}});
+        options.obstacles = {obstacle("wedge", wedge)};
+        Bodies                    bodies(std::move(geometry), options);
+        std::vector<Tensor<1, 2>> nodal(bodies.covers.n_covers());
+        bodies.surface.set_displacements(&nodal);
+        ContactSearch search(bodies.surface, {});
+        search.update(std::vector<double>(bodies.surface.n_bodies(), 0.15));
+        const auto  &edges = bodies.surface.edges();
+        unsigned int n     = 0;
+        for (unsigned int i = 0; i < search.slaves().size(); ++i)
+        {
+          const unsigned int slave = search.slaves()[i], end = search.corner(i);
+          if (end == 2 || bodies.surface.is_rigid(slave))
+            continue;
+          const Place place = bodies.surface.place(slave, end);
+          if (Point<2>(place.x).distance(Point<2>(gap, 0.25)) > 1e-12)
+            continue;
+          const unsigned int other =
+            end == 0 ? edges[slave].previous : edges[slave].next;
+          const ContactProjection found = search.project_corner(
+            place,
+            bodies.surface.place(other, 1. - end).normal(),
+            search.masters(i),
+            invalid_index,
+            internal::AdmittedContact());
+          ASSERT_NE(found.master, invalid_index);
+          EXPECT_NEAR(found.gap, gap, 1e-12);
+          ++n;
+        }
+        // one for each of the edges that end there
+        EXPECT_EQ(n, 2U);
+      }
+  }
+
+
   /// Both faces of a crack meet at its tips, and touch each other up to there.
   // Forces must not jump when a block turns: the share of the contact along faces falls from all to
   // none between the angles that the documentation names, and its slope is at most 1.5 times that

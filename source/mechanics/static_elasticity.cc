@@ -64,6 +64,11 @@ namespace NMM
                                                 *problem,
                                                 /* may_float = */ false,
                                                 ghost_penalty);
+    AssertThrow(!forces->is_inelastic(),
+                InputError("a material is inelastic, which is not possible in "
+                           "a linear problem",
+                           "StaticElasticity",
+                           "choose another law, or NonlinearStatics"));
     section.reset();
     section = time_section(timer, "assembly");
     forces->assemble_at_rest(1.);

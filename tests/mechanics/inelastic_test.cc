@@ -3,6 +3,7 @@
 #include <nmm/materials/material_law.h>
 #include <nmm/materials/mohr_coulomb_law.h>
 #include <nmm/mechanics/inelastic_terms.h>
+#include <nmm/mechanics/static_elasticity.h>
 
 #include <gtest/gtest.h>
 #include <mechanics/finite_model.h>
@@ -263,4 +264,10 @@ TEST(Inelastic, WhatIsNotThereIsRefused)
   EXPECT_THROW(model->problem.materials[0].hyperelastic_law(
                  PlaneState::plane_strain),
                InputError);
+  // Its initial stress would be lost in silence.
+  StaticElasticity linear(model->covers,
+                          *model->quadrature,
+                          model->constraints,
+                          model->problem);
+  EXPECT_THROW(linear.assemble(), InputError);
 }

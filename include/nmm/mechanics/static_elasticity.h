@@ -74,6 +74,7 @@ namespace NMM
     /**
      * Make the sparsity pattern and assemble matrix and right-hand side. @p timer, if not null,
      * records the sections "sparsity" and "assembly".
+     * @throws InputError for inelastic materials.
      * @throws NumericalFailure, naming the block, for a block whose displacement conditions and
      * fixed points permit a rigid motion.
      */

@@ -73,7 +73,6 @@ namespace NMM
   FiniteElasticity::assemble_linearized(const Vector &u,
                                         const double  load_factor)
   {
-    Assert(data->ghost_pairs.empty(), dealii::ExcNotImplemented());
     read_nodal_values(*data->covers, u, data->nodal);
     Data::Task task{load_factor, Tangent::none};
     task.forces = Data::Forces::linearized;

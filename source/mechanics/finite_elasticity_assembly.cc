@@ -46,8 +46,7 @@ namespace NMM
     , linear_terms(covers, quadrature, problem)
     , dead_loads(covers, quadrature, problem, curve_conditions, points)
     , assembler(covers, constraints)
-    , linear_regions(internal::linear_regions(covers, problem))
-    , ghost_terms(covers, problem)
+    , has_ghost_penalty(ghost_penalty != nullptr)
     , ghost_pairs(owned_pairs(covers, ghost_penalty))
   {
     if (!may_float)
@@ -188,7 +187,7 @@ namespace NMM
         if (task.forces == Forces::finite)
           state = elastic_fluxes(region_to_law, u, task.tangent, terms);
         else
-          set_linear_fluxes(linear_regions, u, terms);
+          set_linear_fluxes(linear_terms.laws(), u, terms);
         gauge_jump(point, terms.d);
       }
       if (state == Deformation::admissible)
@@ -387,7 +386,10 @@ namespace NMM
   void
   FiniteElasticity::Data::add_ghost_terms(const Task &task)
   {
-    LocalSystem local;
+    if (ghost_pairs.empty())
+      return;
+    const GhostTerms ghost_terms(*covers, *problem);
+    LocalSystem      local;
     for (const auto &pair : ghost_pairs)
     {
       local.reset(2 * n_per_cell);
@@ -460,6 +462,10 @@ namespace NMM
   Deformation
   FiniteElasticity::Data::assemble(const Task &task)
   {
+    AssertThrow(task.forces == Forces::at_rest || !has_ghost_penalty,
+                InputError("a ghost penalty is for linear problems only",
+                           "these equations",
+                           "aggregate covers instead"));
     assembler.reset(task.with_tangent());
     energies          = Energies();
     force_square      = 0.;

@@ -239,7 +239,6 @@ namespace NMM
     internal::CoverMatrixAssembler                 assembler;
 
     bool                                 is_inelastic = false;
-    std::vector<internal::LinearRegion>  linear_regions;
     internal::RegionLaws                 region_to_law;
     std::vector<internal::ConservingLaw> region_to_conserving_law;
     LoadAmplitudes                       amplitudes;
@@ -251,7 +250,7 @@ namespace NMM
     internal::ActiveItems              active_elements, active_covers;
     std::vector<internal::ActiveItems> active_loads;
 
-    internal::GhostTerms                               ghost_terms;
+    bool                                               has_ghost_penalty;
     std::vector<std::pair<unsigned int, unsigned int>> ghost_pairs;
     /// The inhomogeneities of the constraints as displacements of covers [m]; empty if all are 0.
     std::vector<dealii::Tensor<1, 2>> inhomogeneities;

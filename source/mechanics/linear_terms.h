@@ -84,6 +84,13 @@ namespace NMM
                   const QuadratureCollection &quadrature,
                   const ElasticityProblem    &problem);
 
+      /// The laws of all regions.
+      const std::vector<LinearRegion> &
+      laws() const
+      {
+        return regions;
+      }
+
       /// Add the stiffness of an element and its forces at u = 0 to @p system, which must be zero
       /// before.
       void

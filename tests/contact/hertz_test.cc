@@ -184,8 +184,8 @@ namespace
 
   // Two or three edges over the half-width: the rim of the contact lies within an edge, where faces
   // open and close from update to update of the multipliers. Springs that were made stiffer there
-  // gave a ripple of 1 and a half-width that is wrong by 0.6. The bars are half of the errors of the
-  // penalty method on these meshes.
+  // gave a ripple of 1 and a half-width that is wrong by 0.6. The bars are at most half of the errors
+  // of the penalty method on the second mesh: 0.11, 0.089 and 0.35.
   TEST(ContactHertz, MultipliersAreSmoothOnCoarseMeshes)
   {
     for (const double edge_over_width : {0.4, 0.3})

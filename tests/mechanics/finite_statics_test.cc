@@ -206,6 +206,39 @@ TEST(FiniteStatics, FollowerPressureOnAllSidesMPI)
 }
 
 
+// Linear statics, and load steps with small displacements, are one theory, also under an initial
+// stress of a tenth of Young's modulus, whose geometric stiffness would change the displacements by
+// about as much. The tolerance is that of Newton's method.
+TEST(FiniteStatics, SmallDisplacementsAreOneTheoryMPI)
+{
+  const auto model =
+    jointed_box(2, default_material_law(), PlaneState::plane_strain);
+  for (Material &m : model->problem.materials)
+  {
+    m.initial_stress[0][0] = -0.1 * m.youngs_modulus;
+    m.initial_stress[1][1] = -0.03 * m.youngs_modulus;
+    m.initial_stress[0][1] = 0.02 * m.youngs_modulus;
+  }
+  model->problem.gravity             = Tensor<1, 2>({0., -1.});
+  model->problem.boundary_conditions = {
+    condition(Type::displacement, "left", vector_function([](auto &x) {
+                return Tensor<1, 2>({0.01 * x[1], 0.});
+              })),
+    condition(Type::follower_pressure, "top", constant(1.)),
+    condition(Type::pressure, "right", constant(2.))};
+  model->solve();
+  const auto       elasticity = finite_elasticity(*model);
+  const auto       solid = make_solid_at_rest(*elasticity, Kinematics::small);
+  NonlinearStatics statics(*solid);
+  statics.run(LoadSteps::equal(1));
+  EXPECT_LT(relative_difference(statics.solution(), model->system->solution()),
+            1e-8);
+  // the residual element by element, which does not use the matrix
+  elasticity->assemble_linearized(model->system->solution(), 1.);
+  EXPECT_LT(elasticity->residual().l2_norm(), 1e-9 * elasticity->force_scale());
+}
+
+
 // At small loads all kinematics agree, to the order of the strain.
 TEST(FiniteStatics, SmallLoadsMPI)
 {

@@ -31,13 +31,13 @@
  * | force_term.h | interface of one kind of force, and the unknowns of a body |
  * | force_sink.h | where forces between a few covers, of whichever blocks, are added |
  * | mechanical_model.h | the forces of a body as a list of terms |
- * | solid_term.h | the term of a solid, at rest or in motion: small displacements, or total Lagrangian |
+ * | solid_term.h | the term of a solid, at rest or in motion, in both kinematics |
  * | spring_term.h | the term of springs between material points |
  * | loading.h | loads, releases and base acceleration as functions of time |
  * | mass_matrix.h | consistent mass matrix |
  * | material_vector.h | positions of material points as functions of the unknowns |
  * | solid_layout.h | the unknowns of a solid |
- * | disk_cover.h | functions of a crack tip or a hole on a disk |
+ * | disk_cover.h | a disk with functions of its own, as at a crack tip |
  * | carried_covers.h | displacements of a solid that has been cut further |
  * | load_values.h | tractions and prescribed displacements at points |
  * | displacement_field.h, stress_recovery.h, block_motion.h | evaluation of a solution |

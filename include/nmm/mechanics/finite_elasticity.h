@@ -83,8 +83,8 @@ namespace NMM
     /// @throws InputError if the problem does not fit the mesh, see
     /// ElasticityProblem::check(), or a point lies outside the solid.
     /// @throws NumericalFailure for a block whose supports permit a rigid motion, unless
-    /// @p may_float (dynamics). The terms of @p ghost_penalty, if it is not null, are added by
-    /// assemble_at_rest() only.
+    /// @p may_float (dynamics). With a @p ghost_penalty only assemble_at_rest() is possible; other
+    /// assemblies throw an InputError.
     FiniteElasticity(const CoverSystem                       &covers,
                      const QuadratureCollection              &quadrature,
                      const dealii::AffineConstraints<double> &constraints,

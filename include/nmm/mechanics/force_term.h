@@ -240,9 +240,9 @@ namespace NMM
    * A term that remembers nothing from step to step needs only assemble() and properties(), and
    * couplings() if it uses the sink. All functions are collective.
    *
-   * Terms get no velocities: C is Rayleigh damping, which TimeIntegrator adds. A force that depends on
-   * the rate uses (end - begin) / (end_time - begin_time) of a conserving step; other trials have no
-   * rate, and it exerts no force in them.
+   * Terms get no velocities: C is Rayleigh damping, which TimeIntegrator adds. A force that depends
+   * on the rate uses (end - begin) / (end_time - begin_time) of a conserving step; other trials have
+   * no rate, and it exerts no force in them.
    *
    * How to write one: derive a class from this one. Forces that do not depend on u are added to
    * AssembledForces::residual. A force that depends on the unknowns of a few covers, of whichever
@@ -353,10 +353,11 @@ namespace NMM
 
     /**
      * Let there be stiffness-proportional damping with the @p coefficient [s]. Only the solid is
-     * asked, and only its term overrides this. A term whose conserving forces contain it from now on, and whose commit() returns the
-     * energy that it dissipates, returns null. Otherwise it returns the stiffness of the solid at
-     * u = 0, without loads and without supports, which would be held back where they move [Pa]: the
-     * caller adds the damping, which then does not rotate with a body. Overwrites the tangent.
+     * asked, and only its term overrides this. If its conserving forces contain the damping from now
+     * on, and its commit() returns the energy that it dissipates, it returns null. Otherwise it
+     * returns the stiffness of the solid at u = 0, without loads and without supports, which would be
+     * held back where they move [Pa]: the caller adds the damping, which then does not rotate with a
+     * body. Overwrites the tangent.
      * @throws InputError for a term that cannot be damped, unless the coefficient is 0.
      */
     virtual const Matrix *

@@ -226,9 +226,10 @@ namespace NMM
   /**
    * The term of a solid with small displacements, see FiniteElasticity::assemble_linearized(),
    * @f[ r(u,t) = K u - f(t). @f]
-   * K contains the displacement conditions, and f their prescribed displacements; the work of loads
-   * and that of moving supports are told apart. K changes with releases and absent blocks only; each
-   * part of f is assembled when its amplitudes change.
+   * Displacement conditions contribute to K, and prescribed displacements to f. K is assembled again
+   * only when a support is released or a block leaves. f has two parts, that of the loads and that
+   * of the supports, so that the work of each is known; a part is assembled again when its
+   * amplitudes change.
    *
    * Inelastic materials add their forces (InelasticTerms). Conserving forces contain the mean of
    * these forces at both ends of a step. The energy dissipated in a step is the work of that mean

@@ -94,7 +94,7 @@ namespace NMM
       {
         std::ostringstream text;
         for (int power = -4; power <= 4; ++power)
-          for (const int factor : {1, 2, 5})
+          for (const double factor : {1., 1.5, 2., 3., 5., 7.})
             text << (text.str().empty() ? "" : ", ")
                  << factor * std::pow(10., power);
         return text.str();

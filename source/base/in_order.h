@@ -42,8 +42,9 @@ namespace NMM
 
       struct Block
       {
-        unsigned int        begin = 0, end = 0;
-        std::vector<Result> results = std::vector<Result>(block_size);
+        unsigned int begin = 0, end = 0;
+        // They are made by the thread that needs them first, not copied.
+        std::vector<Result> results;
       };
       struct Scratch
       {
@@ -54,6 +55,7 @@ namespace NMM
         blocks.begin(),
         blocks.end(),
         [&](const auto &b, Scratch &, Block &block) {
+          block.results.resize(block_size);
           block.begin = first + *b * block_size;
           block.end   = std::min(block.begin + block_size, last);
           for (unsigned int i = block.begin; i < block.end; ++i)

@@ -169,9 +169,7 @@ namespace NMM
     d.make_points();
     if (d.is_geometry_frozen())
     {
-      d.frozen.projections.resize(d.points.size());
-      d.frozen.gaps.assign(d.points.size(), 0.);
-      d.frozen.is_known.assign(d.points.size(), false);
+      d.frozen.assign(d.points.size(), Data::FrozenPoint());
     }
     d.is_idle =
       Parallel::max(d.search.slaves().empty() ? 0U : 1U, d.communicator) == 0U;
@@ -229,27 +227,40 @@ namespace NMM
   }
 
 
-  void
-  Contact::Data::add_point(const unsigned int q, const bool with_tangent)
+  std::vector<unsigned int>
+  Contact::Data::active_points() const
   {
+    std::vector<unsigned int> result;
+    active.for_each_point(points.size(),
+                          [&](const unsigned int q) { result.push_back(q); });
+    return result;
+  }
+
+
+  void
+  Contact::Data::evaluate(const unsigned int q,
+                          const bool         with_tangent,
+                          PointForces       &forces)
+  {
+    forces.clear();
     ContactPoint               &point  = points[q];
     const ContactState          before = point.state;
     const ContactSurface::Place slave  = surface->place(point.edge, point.s);
-    const ContactProjection     projection =
+    forces.projection =
       is_geometry_frozen() ? project_frozen(q, slave) : project(q, slave);
-    if (projection.master == invalid_index || point.weight == 0.)
+    if (forces.projection.master == invalid_index || point.weight == 0.)
     {
       point.pressure = point.shear = 0.;
       point.state                  = ContactState::open;
-      report.n_changes += before != point.state;
+      forces.has_changed           = before != point.state;
       return;
     }
-    const ContactTraction traction = find_traction(q, slave, projection);
-    report.n_changes += before != point.state;
+    const ContactTraction traction =
+      find_traction(q, slave, forces.projection, forces.energy);
+    forces.has_changed = before != point.state;
+    forces.is_near     = true;
     if (point.state != ContactState::open)
-      assemble_point(q, projection, traction, with_tangent);
-    else
-      note_depth(q, projection);
+      find_forces(q, traction, with_tangent, forces);
   }
 
 
@@ -295,7 +306,7 @@ namespace NMM
     depth += more;
     if (depth <= report.largest_penetration ||
         (fixed.corner >= PointKind::along &&
-         fixed.piece_length <= CornerRules::shortest_piece * size_at(q)))
+         fixed.piece_length <= CornerRules::shortest_piece * size_at(fixed)))
       return;
     // A point is pushed out through the face by which it came in, which may be further away than
     // another face.
@@ -316,20 +327,14 @@ namespace NMM
 
 
   void
-  Contact::Data::assemble_point(const unsigned int       q,
-                                const ContactProjection &projection,
-                                const ContactTraction   &traction,
-                                const bool               with_tangent)
+  Contact::Data::find_forces(const unsigned int     q,
+                             const ContactTraction &traction,
+                             const bool             with_tangent,
+                             PointForces           &forces) const
   {
-    const ContactPoint &point = points[q];
-    const PointData    &fixed = point_data[q];
-    active.note_pressed(point.edge, point.master);
-    ++(point.state == ContactState::stick ? report.n_stick : report.n_slip);
-    report.n_bonded += point.is_bonded;
-    note_depth(q, projection);
-    deepest = std::max(deepest,
-                       (is_between() ? fixed.offset_end : fixed.offset) +
-                         point.opening - initial_closure(q) - projection.gap);
+    const ContactPoint      &point      = points[q];
+    const PointData         &fixed      = point_data[q];
+    const ContactProjection &projection = forces.projection;
 
     ContactSurface::Weights master, stick;
     surface->weights(projection.master, projection.t, master);
@@ -343,12 +348,14 @@ namespace NMM
       kinematics.freeze();
     const double sign =
       search.comes_first(point.edge, projection.master) ? 1. : -1.;
-    report.force += sign * (traction.pressure * kinematics.normal -
-                            traction.shear * kinematics.tangent);
+    forces.has_forces = true;
+    forces.force      = sign * (traction.pressure * kinematics.normal -
+                           traction.shear * kinematics.tangent);
+    forces.rounding_square =
+      std::pow(force_rounding(q, projection, traction), 2);
 
-    rounding_square += std::pow(force_rounding(q, projection, traction), 2);
-
-    local.n_covers = 0;
+    ContactLocalSystem &local = forces.local;
+    local.n_covers            = 0;
     local.append(surface->covers(point.edge));
     local.append(surface->covers(projection.master));
     // The anchor matters only if something depends on the distance from it. In a step only dilation
@@ -375,9 +382,34 @@ namespace NMM
                       with_friction ? &stick : nullptr,
                       with_tangent,
                       local);
+  }
+
+
+  void
+  Contact::Data::take_point(const unsigned int q,
+                            const bool         with_tangent,
+                            PointForces       &forces)
+  {
+    const ContactPoint &point = points[q];
+    report.n_changes += forces.has_changed;
+    report.energy += forces.energy;
+    if (forces.is_near)
+      note_depth(q, forces.projection);
+    if (!forces.has_forces)
+      return;
+    const PointData &fixed = point_data[q];
+    active.note_pressed(point.edge, point.master);
+    ++(point.state == ContactState::stick ? report.n_stick : report.n_slip);
+    report.n_bonded += point.is_bonded;
+    deepest =
+      std::max(deepest,
+               (is_between() ? fixed.offset_end : fixed.offset) +
+                 point.opening - initial_closure(q) - forces.projection.gap);
+    report.force += forces.force;
+    rounding_square += forces.rounding_square;
     if (with_tangent && is_between())
       active.note_coupled(point.edge, point.master);
-    matrix.add(local);
+    matrix.add(forces.local);
   }
 
 
@@ -458,8 +490,11 @@ namespace NMM
     if (d.problem != Data::Problem::motion_of_frozen_geometry)
       d.set_admitted_depth();
     d.matrix.begin_assembly(with_tangent);
-    d.for_each_active_point(
-      [&](const unsigned int q) { d.add_point(q, with_tangent); });
+    d.add_points(d.active_points(),
+                 with_tangent,
+                 [&](const unsigned int q, Data::PointForces &forces) {
+                   d.evaluate(q, with_tangent, forces);
+                 });
     d.matrix.end_assembly();
     d.reduce_report();
   }

@@ -6,6 +6,7 @@
 #include <deal.II/base/exceptions.h>
 
 #include <algorithm>
+#include <base/in_order.h>
 #include <contact/active_bodies.h>
 #include <contact/contact_crossings.h>
 #include <contact/contact_matrix.h>
@@ -166,20 +167,36 @@ namespace NMM
       unsigned int beside_begin = 0, beside_end = 0;
     };
 
+    /// New contact points of one slave; ranges of PointData are those of its own faces beside.
+    struct NewPoints
+    {
+      std::vector<ContactPoint> points;
+      std::vector<PointData>    data;
+      std::vector<unsigned int> faces_beside;
+
+      void
+      clear()
+      {
+        points.clear();
+        data.clear();
+        faces_beside.clear();
+      }
+    };
+
     void
     make_points();
 
     void
-    find_faces_beside();
+    find_faces_beside(NewPoints &made) const;
 
     void
-    add_points_of(unsigned int slave);
+    add_points_of(unsigned int slave, NewPoints &made) const;
 
     unsigned int
     n_parts_of(unsigned int slave) const;
 
     void
-    add_corner(unsigned int slave);
+    add_corner(unsigned int slave, NewPoints &made) const;
 
     ContactSurface::WeightValues
     weights_at(const ContactPoint &point) const;
@@ -304,10 +321,49 @@ namespace NMM
 
     /// Candidate masters of a point.
     dealii::ArrayView<const unsigned int>
-    masters_of(unsigned int q) const;
+    masters_of(const PointData &fixed) const;
 
     /// @name One point in an assembly
     /// @{
+    /// What a contact point adds to forces, tangent and report. Points are evaluated on several
+    /// threads: each evaluation writes to its point and to one of these, and the sums are made in the
+    /// order of the points, see add_points().
+    struct PointForces
+    {
+      // The arrays of the local system stay uninitialized.
+      PointForces() {}
+
+      /// Begin with a point that adds nothing.
+      void
+      clear()
+      {
+        has_changed = is_near = has_forces = false;
+        energy = rounding_square = 0.;
+      }
+
+      /// Whether the state of the point differs from the one before, whether its depth counts for
+      /// the largest penetration, and whether it exerts forces.
+      bool has_changed = false, is_near = false, has_forces = false;
+      internal::ContactProjection projection;
+      /// Energy of its springs [J/m], and square of force_rounding() [N^2/m^2].
+      double energy = 0., rounding_square = 0.;
+      /// Force on the slave [N/m]; set if there are forces, and so is the local system.
+      dealii::Tensor<1, 2>         force;
+      internal::ContactLocalSystem local;
+    };
+
+    /// Evaluate the points with these numbers by evaluate(q, forces), a function that may run on
+    /// several threads, and add what they exert.
+    template <typename Evaluate>
+    void
+    add_points(const std::vector<unsigned int> &numbers,
+               bool                             with_tangent,
+               const Evaluate                  &evaluate);
+
+    /// Add the forces of one point to the matrix, the residual and the report.
+    void
+    take_point(unsigned int q, bool with_tangent, PointForces &forces);
+
     /// Include the penetration at a point in the report, or at the deepest place beside it.
     void
     note_depth(unsigned int q, const internal::ContactProjection &projection);
@@ -318,11 +374,12 @@ namespace NMM
     deepest_beside(unsigned int                       q,
                    const internal::ContactProjection &projection) const;
 
+    /// Forces and tangent of a point under its traction.
     void
-    assemble_point(unsigned int                       q,
-                   const internal::ContactProjection &projection,
-                   const internal::ContactTraction   &traction,
-                   bool                               with_tangent);
+    find_forces(unsigned int                     q,
+                const internal::ContactTraction &traction,
+                bool                             with_tangent,
+                PointForces                     &forces) const;
 
     /// Positions of the slaves of some contact points.
     std::vector<unsigned int>
@@ -332,13 +389,20 @@ namespace NMM
     void
     find_ends();
 
-    /// Project a point at the end of a step. Returns false, and sets the point open, if it touches
-    /// neither there nor at the beginning.
-    bool
+    /// A point at the end of a step: whether it touches there or at the beginning, and whether it
+    /// has been closed until now and does not.
+    struct PointEnd
+    {
+      bool is_near = false, has_opened = false;
+    };
+
+    /// Project a point at the end of a step. A point that is not near is set open.
+    PointEnd
     find_end(unsigned int q);
 
+    /// Evaluate a point in the mean position of the step.
     void
-    add_point_between(unsigned int q, bool with_tangent);
+    evaluate_between(unsigned int q, bool with_tangent, PointForces &forces);
 
     /// Motion of the slave relative to the master in the step [m].
     dealii::Tensor<1, 2>
@@ -489,13 +553,16 @@ namespace NMM
                        bool                               was_slipping,
                        internal::ContactTraction         &traction);
 
+    /// Evaluate a point at the present positions.
     void
-    add_point(unsigned int q, bool with_tangent);
+    evaluate(unsigned int q, bool with_tangent, PointForces &forces);
 
+    /// Pressure and shear of a point, and their derivatives; adds the energy of its springs.
     internal::ContactTraction
     find_traction(unsigned int                       q,
                   const ContactSurface::Place       &slave,
-                  const internal::ContactProjection &projection);
+                  const internal::ContactProjection &projection,
+                  double                            &energy);
 
     /// Ratio of stress to strength of a bond; negative if the point is not bonded.
     double
@@ -505,13 +572,9 @@ namespace NMM
     double
     accept_shear(unsigned int q);
 
-    /// Call action(q) for points that belong to an active body, ascending.
-    template <typename Action>
-    void
-    for_each_active_point(const Action &action)
-    {
-      active.for_each_point(points.size(), action);
-    }
+    /// Points that belong to an active body, ascending.
+    std::vector<unsigned int>
+    active_points() const;
 
     /// List the points of each body if there are inactive bodies.
     void
@@ -559,9 +622,9 @@ namespace NMM
 
     /// Size of the cell at the slave of a point, or length of the face if that is shorter [m].
     double
-    size_at(const unsigned int q) const
+    size_at(const PointData &fixed) const
     {
-      return corner_size[2 * search.slaves()[point_data[q].slave]];
+      return corner_size[2 * search.slaves()[fixed.slave]];
     }
 
     /// Energies of all pairs of bodies, and with @p factors those of penetrations and shears that are
@@ -615,11 +678,11 @@ namespace NMM
     /// Linearized geometry, see Contact::freeze_geometry(). For each point: its projection at the
     /// first assembly after detect(), and the difference between its gap and that of the
     /// displacements [m].
-    struct FrozenGeometry
+    struct FrozenPoint
     {
-      std::vector<internal::ContactProjection> projections;
-      std::vector<double>                      gaps;
-      std::vector<bool>                        is_known;
+      internal::ContactProjection projection;
+      double                      gap      = 0.;
+      bool                        is_known = false;
     };
 
     ContactSurface          *surface;
@@ -643,11 +706,11 @@ namespace NMM
     /// By function of that space: whether its springs have been seen to be stiff enough.
     std::vector<bool> is_stiff_enough;
 
-    internal::ContactMemory memory;
-    internal::ActiveBodies  active;
-    internal::ContactMatrix matrix;
-    Step                    step;
-    FrozenGeometry          frozen;
+    internal::ContactMemory  memory;
+    internal::ActiveBodies   active;
+    internal::ContactMatrix  matrix;
+    Step                     step;
+    std::vector<FrozenPoint> frozen;
     /// Search for crossings; null until it is needed.
     std::unique_ptr<internal::ContactCrossings> crossings;
 
@@ -678,11 +741,28 @@ namespace NMM
     ContactReport report;
     double        deepest = 0.;
     /// Sum of the squares of force_rounding() in the last assembly [N^2/m^2].
-    double                       rounding_square = 0.;
-    internal::ContactLocalSystem local;
+    double rounding_square = 0.;
     /// Energy of bonds that broke since the last accepted state [J/m].
     double broken_energy = 0.;
   };
+
+
+  template <typename Evaluate>
+  void
+  Contact::Data::add_points(const std::vector<unsigned int> &numbers,
+                            const bool                       with_tangent,
+                            const Evaluate                  &evaluate)
+  {
+    internal::for_each_in_order<PointForces>(
+      0,
+      numbers.size(),
+      [&](const unsigned int i, PointForces &forces) {
+        evaluate(numbers[i], forces);
+      },
+      [&](const unsigned int i, PointForces &forces) {
+        take_point(numbers[i], with_tangent, forces);
+      });
+  }
 } // namespace NMM
 
 #endif

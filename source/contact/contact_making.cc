@@ -20,31 +20,49 @@ namespace NMM
   {
     points.clear();
     point_data.clear();
-    for (unsigned int i = 0; i < search.slaves().size(); ++i)
-      if (search.corner(i) == PointKind::along)
-        add_points_of(i);
-      else
-        add_corner(i);
     faces_beside.clear();
-    if (is_conserving())
-      find_faces_beside();
+    for_each_in_order<NewPoints>(
+      0,
+      search.slaves().size(),
+      [&](const unsigned int i, NewPoints &made) {
+        made.clear();
+        if (search.corner(i) == PointKind::along)
+          add_points_of(i, made);
+        else
+          add_corner(i, made);
+        if (is_conserving())
+          find_faces_beside(made);
+      },
+      [&](unsigned int, NewPoints &made) {
+        for (PointData &fixed : made.data)
+        {
+          fixed.beside_begin += faces_beside.size();
+          fixed.beside_end += faces_beside.size();
+        }
+        points.insert(points.end(), made.points.begin(), made.points.end());
+        point_data.insert(point_data.end(), made.data.begin(), made.data.end());
+        faces_beside.insert(faces_beside.end(),
+                            made.faces_beside.begin(),
+                            made.faces_beside.end());
+      });
   }
 
 
   void
-  Contact::Data::find_faces_beside()
+  Contact::Data::find_faces_beside(NewPoints &made) const
   {
-    for (unsigned int q = 0; q < points.size(); ++q)
+    for (unsigned int q = 0; q < made.points.size(); ++q)
     {
-      PointData         &fixed = point_data[q];
-      const unsigned int edge  = points[q].edge;
-      fixed.beside_begin       = faces_beside.size();
+      PointData         &fixed = made.data[q];
+      const unsigned int edge  = made.points[q].edge;
+      fixed.beside_begin       = made.faces_beside.size();
       search.append_faces_beside(edge,
-                                 surface->place(edge, points[q].s).x,
-                                 masters_of(q),
-                                 CornerRules::least_depth_beside * size_at(q),
-                                 faces_beside);
-      fixed.beside_end = faces_beside.size();
+                                 surface->place(edge, made.points[q].s).x,
+                                 masters_of(fixed),
+                                 CornerRules::least_depth_beside *
+                                   size_at(fixed),
+                                 made.faces_beside);
+      fixed.beside_end = made.faces_beside.size();
     }
   }
 
@@ -107,7 +125,7 @@ namespace NMM
 
 
   void
-  Contact::Data::add_corner(const unsigned int slave)
+  Contact::Data::add_corner(const unsigned int slave, NewPoints &made) const
   {
     ContactPoint point;
     PointData    fixed;
@@ -122,8 +140,8 @@ namespace NMM
                       : corner_size[2 * point.edge + fixed.corner] / 12.;
     fixed.weights = weights_at(point);
     restore(point, fixed, point.edge);
-    points.push_back(point);
-    point_data.push_back(fixed);
+    made.points.push_back(point);
+    made.data.push_back(fixed);
   }
 
 
@@ -170,7 +188,7 @@ namespace NMM
 
 
   void
-  Contact::Data::add_points_of(const unsigned int slave)
+  Contact::Data::add_points_of(const unsigned int slave, NewPoints &made) const
   {
     const unsigned int edge      = search.slaves()[slave];
     const auto         divisions = search.divisions(slave, n_parts_of(slave));
@@ -242,8 +260,8 @@ namespace NMM
         if (fixed.corner > PointKind::along &&
             point.stick_edge == invalid_index)
           take_over_place(point, fixed, edge);
-        points.push_back(point);
-        point_data.push_back(fixed);
+        made.points.push_back(point);
+        made.data.push_back(fixed);
       }
     }
   }

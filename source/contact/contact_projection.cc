@@ -56,21 +56,22 @@ namespace NMM
   Contact::Data::project_frozen(const unsigned int           q,
                                 const ContactSurface::Place &slave)
   {
-    ContactProjection &projection = frozen.projections[q];
+    FrozenPoint       &known      = frozen[q];
+    ContactProjection &projection = known.projection;
     ContactPoint      &point      = points[q];
-    if (!frozen.is_known[q])
+    if (!known.is_known)
     {
-      projection         = project(q, slave);
-      frozen.is_known[q] = true;
+      projection     = project(q, slave);
+      known.is_known = true;
       if (projection.master != invalid_index)
-        frozen.gaps[q] = projection.gap - gap_of_displacements(q, projection);
+        known.gap = projection.gap - gap_of_displacements(q, projection);
       return projection;
     }
     point.x = slave.x;
     if (projection.master == invalid_index)
       return projection;
     point.gap = projection.gap =
-      gap_of_displacements(q, projection) + frozen.gaps[q];
+      gap_of_displacements(q, projection) + known.gap;
     // Forces are those at the frozen place. The anchor after this state is accepted is the place
     // that the point has reached.
     const ContactSurface::Place place =
@@ -149,10 +150,10 @@ namespace NMM
 
 
   dealii::ArrayView<const unsigned int>
-  Contact::Data::masters_of(const unsigned int q) const
+  Contact::Data::masters_of(const PointData &fixed) const
   {
-    const unsigned int slave = point_data[q].slave;
-    if (point_data[q].corner <= PointKind::along)
+    const unsigned int slave = fixed.slave;
+    if (fixed.corner <= PointKind::along)
       return search.masters(slave);
     return dealii::ArrayView<const unsigned int>(&search.slaves()[slave], 1);
   }
@@ -163,7 +164,7 @@ namespace NMM
                              const ContactSurface::Place &slave) const
   {
     const PointData &fixed   = point_data[q];
-    const auto       masters = masters_of(q);
+    const auto       masters = masters_of(fixed);
 
     const AdmittedContact admitted = find_admitted(q);
     if (fixed.corner >= PointKind::along)
@@ -173,7 +174,7 @@ namespace NMM
       // An overlap that is much deeper than long came in through the other face of the corner.
       if (result.master != invalid_index &&
           result.gap < -CornerRules::deepest_of_piece * fixed.piece_length -
-                         CornerRules::shortest_piece * size_at(q))
+                         CornerRules::shortest_piece * size_at(fixed))
         result = ContactProjection();
       return result;
     }

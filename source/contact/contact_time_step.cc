@@ -340,7 +340,7 @@ namespace NMM
   }
 
 
-  bool
+  Contact::Data::PointEnd
   Contact::Data::find_end(const unsigned int q)
   {
     ContactPoint &point = points[q];
@@ -373,27 +373,29 @@ namespace NMM
     fixed.offset_end                     = std::min(0., fixed.gap_end);
     if (fixed.gap_begin < fixed.offset || fixed.gap_end < fixed.offset ||
         point.is_bonded)
-      return true;
-    report.n_changes += point.state != ContactState::open;
+      return {/* is_near = */ true, /* has_opened = */ false};
+    const bool has_opened = point.state != ContactState::open;
     point.pressure = point.shear = 0.;
     point.state                  = ContactState::open;
-    return false;
+    return {/* is_near = */ false, has_opened};
   }
 
 
-  /// Add one point in the mean position of the step.
   void
-  Contact::Data::add_point_between(const unsigned int q,
-                                   const bool         with_tangent)
+  Contact::Data::evaluate_between(const unsigned int q,
+                                  const bool         with_tangent,
+                                  PointForces       &forces)
   {
+    forces.clear();
     ContactPoint      &point  = points[q];
     PointData         &fixed  = point_data[q];
     const ContactState before = point.state;
-    point.pressure = point.shear      = 0.;
-    point.state                       = ContactState::open;
-    const ContactSurface::Place slave = surface->place(point.edge, point.s);
-    const ContactProjection     projection = project(q, slave);
-    ContactTraction             traction;
+    point.pressure = point.shear        = 0.;
+    point.state                         = ContactState::open;
+    const ContactSurface::Place slave   = surface->place(point.edge, point.s);
+    forces.projection                   = project(q, slave);
+    const ContactProjection &projection = forces.projection;
+    ContactTraction          traction;
     const double stored = std::max(0., fixed.offset - fixed.gap_begin);
     if (projection.master == invalid_index || point.weight == 0.)
     {
@@ -412,9 +414,10 @@ namespace NMM
             q, projection, motion, before == ContactState::slip, traction);
       }
     }
-    report.n_changes += before != point.state;
-    if (point.state != ContactState::open)
-      assemble_point(q, projection, traction, with_tangent);
+    forces.has_changed = before != point.state;
+    forces.is_near     = point.state != ContactState::open;
+    if (forces.is_near)
+      find_forces(q, traction, with_tangent, forces);
   }
 
 
@@ -459,10 +462,16 @@ namespace NMM
   Contact::Data::find_ends()
   {
     step.near_points.clear();
-    for_each_active_point([&](const unsigned int q) {
-      if (find_end(q))
-        step.near_points.push_back(q);
-    });
+    const std::vector<unsigned int> numbers = active_points();
+    for_each_in_order<PointEnd>(
+      0,
+      numbers.size(),
+      [&](const unsigned int i, PointEnd &end) { end = find_end(numbers[i]); },
+      [&](const unsigned int i, const PointEnd &end) {
+        report.n_changes += end.has_opened;
+        if (end.is_near)
+          step.near_points.push_back(numbers[i]);
+      });
   }
 
 
@@ -563,8 +572,11 @@ namespace NMM
     else if (is_sparse)
       d.matrix.couple_all();
     d.matrix.begin_assembly(with_tangent, tangent_factor, body_matrix);
-    for (const unsigned int q : d.step.near_points)
-      d.add_point_between(q, with_tangent);
+    d.add_points(d.step.near_points,
+                 with_tangent,
+                 [&](const unsigned int q, Data::PointForces &forces) {
+                   d.evaluate_between(q, with_tangent, forces);
+                 });
     d.matrix.end_assembly();
     d.reduce_report();
   }

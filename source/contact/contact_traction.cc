@@ -55,11 +55,11 @@ namespace NMM
   } // namespace
 
 
-  /// Pressure and shear of a point, and their derivatives.
   ContactTraction
   Contact::Data::find_traction(const unsigned int           q,
                                const ContactSurface::Place &slave,
-                               const ContactProjection     &projection)
+                               const ContactProjection     &projection,
+                               double                      &energy)
   {
     // Faces that touch count as closed in spite of rounding in their gap, so that a block that lies
     // on another one is held by it from the start. In statics the gap has no rounding.
@@ -99,7 +99,7 @@ namespace NMM
       point.weight * spring.derivative * dilation.by_gap;
     traction.pressure_by_slip =
       -point.weight * spring.derivative * dilation.by_slip;
-    report.energy +=
+    energy +=
       normal_energy(q, point.pressure) - normal_energy(q, point.multiplier);
     const bool was_slipping = point.state == ContactState::slip;
     point.state             = ContactState::slip;
@@ -111,7 +111,7 @@ namespace NMM
                  law.shear_spring(),
                  was_slipping,
                  traction);
-      report.energy += shear_energy(q, point.shear);
+      energy += shear_energy(q, point.shear);
     }
     return traction;
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <contact/contact_data.h>
 #include <mechanics/nodal_values.h>
+#include <utility>
 
 namespace NMM
 {
@@ -29,11 +30,11 @@ namespace NMM
     , rounded(surface,
               parameters_in.rounded_corners,
               parameters_in.corner_rounding)
-    , corner_size(corner_sizes(surface))
+    , multipliers(surface, parameters.penetration_tolerance)
+    , maker(surface, search, parameters, memory, multipliers)
     , active(surface)
     , matrix(surface, constraints, search, memory.stick_places, active)
   {
-    lobatto_rule(parameters.n_points, rule_points, rule_weights);
     if (parameters.reach == 0.)
     {
       double longest = 0.;
@@ -41,13 +42,6 @@ namespace NMM
         if (!surface.is_rigid(e))
           longest = std::max(longest, surface.edges()[e].length);
       parameters.reach = 0.1 * longest;
-    }
-    if (parameters.penetration_tolerance > 0.)
-    {
-      multiplier_space = std::make_unique<MultiplierSpace>(surface);
-      memory.multipliers.assign(multiplier_space->size(), 0.);
-      stiffening.assign(multiplier_space->size(), 1.);
-      is_stiff_enough.assign(multiplier_space->size(), false);
     }
     AssertThrow(parameters.initial_stress.empty() ||
                   parameters.initial_stress.size() == surface.edges().size(),
@@ -135,13 +129,8 @@ namespace NMM
     d.move_to(u);
     d.step.nodal_begin   = d.nodal;
     d.step.time_detected = d.time;
-    // A run that continues from a checkpoint takes the same steps.
     if (d.is_moving())
-    {
-      std::fill(d.stiffening.begin(), d.stiffening.end(), 1.);
-      d.is_stiff_enough.assign(d.stiffening.size(), false);
-      d.last_penetrations.clear();
-    }
+      d.multipliers.forget_stiffening();
     // What touches is found again, however deep it is and however little moves in the step.
     const double least =
       0.5 * std::max(d.parameters.reach, d.memory.touching_reach);
@@ -166,7 +155,10 @@ namespace NMM
                      ? ContactSearch::Begin::reference
                      : ContactSearch::Begin::unchanged);
     d.set_admitted_depth();
-    d.make_points();
+    PointSet made  = d.maker.make(/* with_faces_beside = */ d.is_conserving());
+    d.points       = std::move(made.points);
+    d.point_data   = std::move(made.data);
+    d.faces_beside = std::move(made.faces_beside);
     if (d.is_geometry_frozen())
     {
       d.frozen.assign(d.points.size(), Data::FrozenPoint());
@@ -306,7 +298,8 @@ namespace NMM
     depth += more;
     if (depth <= report.largest_penetration ||
         (fixed.corner >= PointKind::along &&
-         fixed.piece_length <= CornerRules::shortest_piece * size_at(fixed)))
+         fixed.piece_length <=
+           CornerRules::shortest_piece * maker.size_at(fixed)))
       return;
     // A point is pushed out through the face by which it came in, which may be further away than
     // another face.

@@ -14,7 +14,11 @@
 #include <contact/contact_points.h>
 #include <contact/contact_search.h>
 #include <contact/contact_terms.h>
+#include <contact/multipliers.h>
+#include <contact/point_data.h>
+#include <contact/point_maker.h>
 #include <contact/rounded_corners.h>
+#include <contact/spring_energies.h>
 #include <memory>
 #include <vector>
 
@@ -22,6 +26,9 @@ namespace NMM
 {
   struct Contact::Data
   {
+    using Dilation  = internal::Dilation;
+    using PointData = internal::PointData;
+
     Data(ContactSurface                          &surface,
          const dealii::AffineConstraints<double> &constraints,
          const ContactParameters                 &parameters);
@@ -106,110 +113,6 @@ namespace NMM
              problem == Problem::motion_of_frozen_geometry;
     }
 
-    /// Opening of a point by dilation [m], and the derivatives of gap minus opening by the gap and
-    /// by the tangential distance from the anchor [-].
-    struct Dilation
-    {
-      double opening = 0., by_gap = 1., by_slip = 0.;
-    };
-
-    /// Data of a contact point beside ContactPoint. Most of them do not change between two
-    /// assemblies.
-    struct alignas(64) PointData
-    {
-      /// Position of the slave in ContactSearch::slaves().
-      unsigned int slave;
-      /// Kind of the point, see PointKind.
-      unsigned int corner = internal::PointKind::along;
-      /// Parameter on the slave. It differs from ContactPoint::s if the point is a corner of the
-      /// master.
-      double s = 0.;
-      /// Length of the piece of the slave, between two divisions, to which the point belongs [m].
-      double                       piece_length = 0.;
-      ContactSurface::WeightValues weights;
-      /// Law between the slave and the last master; null if there has been none.
-      const ContactLaw *law = nullptr;
-      /// Fraction of an edge by which masters are continued, see ContactSearch::end_slack().
-      double slack = 0.;
-      /// The master that is continued by the slack; invalid_index if none is.
-      unsigned int home = invalid_index;
-      /// Whether ContactPoint::weight includes the angle between both faces. That is the angle when
-      /// the point first has a master after detect().
-      bool has_angle = false;
-      /// For a time step: gaps at its beginning and end [m], shear at its beginning [Pa], work of
-      /// the shear, and energy that the dashpot has dissipated [J/m].
-      double gap_begin = 0., gap_end = 0., shear_begin = 0., shear_work = 0.,
-             normal_loss = 0.;
-      /// Gap at which the spring is at rest [m], see ContactTimeStep::begin(), and the same at the end
-      /// of the step. Both differ if the master has changed to a face that is not the continuation
-      /// of the first.
-      double offset = 0., offset_end = 0.;
-      /// Masters at the beginning and the end of the step; invalid_index if there is none.
-      unsigned int master_begin = invalid_index, master_end = invalid_index;
-      /// Parameter on the master at the end of the step, and the normal there.
-      double               t_end = 0.;
-      dealii::Tensor<1, 2> normal_end;
-      /// Derivatives of the mean pressure of a step, times the weight, by the gap at the end and by
-      /// the relative normal motion of both faces [N/m^2].
-      double pressure_by_gap = 0., pressure_by_opening = 0.;
-      /// Pressure and shear of the initial stress in the reference configuration [Pa].
-      double initial_pressure = 0., initial_shear = 0.;
-      /// See Data::stiffening; 1 for the penalty method [-].
-      double stiffening = 1.;
-      /// Slip that causes dilation or weakening: at the last accepted state, and since then [m].
-      double slip = 0., new_slip = 0.;
-      /// Cohesion at the beginning of a time step of frozen geometry, which acts in the whole step
-      /// [Pa].
-      double kept_cohesion = 0.;
-      /// Dilation at the end of a time step.
-      Dilation dilation;
-      /// Range of this point in faces_beside.
-      unsigned int beside_begin = 0, beside_end = 0;
-    };
-
-    /// New contact points of one slave; ranges of PointData are those of its own faces beside.
-    struct NewPoints
-    {
-      std::vector<ContactPoint> points;
-      std::vector<PointData>    data;
-      std::vector<unsigned int> faces_beside;
-
-      void
-      clear()
-      {
-        points.clear();
-        data.clear();
-        faces_beside.clear();
-      }
-    };
-
-    void
-    make_points();
-
-    void
-    find_faces_beside(NewPoints &made) const;
-
-    void
-    add_points_of(unsigned int slave, NewPoints &made) const;
-
-    unsigned int
-    n_parts_of(unsigned int slave) const;
-
-    void
-    add_corner(unsigned int slave, NewPoints &made) const;
-
-    ContactSurface::WeightValues
-    weights_at(const ContactPoint &point) const;
-
-    /// Restore the history of a point: its anchor, bond and slip, and its multiplier on @p slave.
-    void
-    restore(ContactPoint &point, PointData &fixed, unsigned int slave) const;
-
-    void
-    take_over_place(ContactPoint &point,
-                    PointData    &fixed,
-                    unsigned int  slave) const;
-
     /// Move all faces to the displacements @p u (locally relevant).
     void
     move_to(const Vector &u);
@@ -267,14 +170,6 @@ namespace NMM
             unsigned int other,
             unsigned int n_edges = 4) const;
 
-    /// Whether @p face ends near @p s of an edge, compared with the piece of the edge that ends at
-    /// @p s and @p other_s.
-    bool
-    ends_near(unsigned int face,
-              unsigned int edge,
-              double       s,
-              double       other_s) const;
-
     /// Set the depth that new contact may have: as far as faces have moved since the beginning of
     /// the step, and in the first step since the reference configuration, in which blocks do not
     /// overlap. In steps that conserve energy there is no limit.
@@ -318,10 +213,6 @@ namespace NMM
     /// The master of a point by ContactSearch, for a point along an edge or a corner.
     internal::ContactProjection
     find_master(unsigned int q, const ContactSurface::Place &slave) const;
-
-    /// Candidate masters of a point.
-    dealii::ArrayView<const unsigned int>
-    masters_of(const PointData &fixed) const;
 
     /// @name One point in an assembly
     /// @{
@@ -491,23 +382,14 @@ namespace NMM
       return spring;
     }
 
-    /// Make springs stiffer where the weighted penetrations [m] of an update, by function of the
-    /// multiplier space, are not much smaller than those of the one before. See Contact.
-    void
-    stiffen_springs(const std::vector<double> &penetrations);
-
     /// Part of the multiplier of a point that is the pressure of the initial stress [Pa].
     double
     initial_multiplier(const unsigned int q) const
     {
-      return multiplier_space == nullptr
-               ? 0.
-               : std::max(0., point_data[q].initial_pressure);
+      return multipliers.are_used()
+               ? std::max(0., point_data[q].initial_pressure)
+               : 0.;
     }
-
-    /// Set the pressure and shear of the initial stress at a point that has its place.
-    void
-    set_initial_traction(PointData &fixed) const;
 
     /// Upper bound on the closure of springs by the initial stress, over all edges and laws, but at
     /// most the reach [m].
@@ -620,38 +502,20 @@ namespace NMM
       return points[q].weight * point_data[q].law->shear_energy(shear);
     }
 
-    /// Size of the cell at the slave of a point, or length of the face if that is shorter [m].
-    double
-    size_at(const PointData &fixed) const
+    /// The springs of all closed points.
+    std::vector<internal::PointSprings>
+    closed_springs() const;
+
+    /// Bodies of a point, the lower number first.
+    std::pair<unsigned int, unsigned int>
+    bodies(const unsigned int q) const
     {
-      return corner_size[2 * search.slaves()[fixed.slave]];
+      return std::minmax(surface->edges()[points[q].edge].body,
+                         surface->edges()[points[q].master].body);
     }
 
-    /// Energies of all pairs of bodies, and with @p factors those of penetrations and shears that are
-    /// multiplied by the factors of their pair.
-    internal::PairEnergies
-    pair_energies(const internal::PairEnergies *factors = nullptr) const;
-
-    /// Derivatives of these energies by the logarithms of the factors.
-    internal::PairEnergies
-    pair_energies_by_factor(const internal::PairEnergies &factors) const;
-
-    /// For each pair of bodies, the sum of of_point(q) over its closed points q on all ranks.
-    template <typename OfPoint>
-    internal::PairEnergies
-    sum_over_pairs(const OfPoint &of_point) const;
-
-    std::pair<unsigned int, unsigned int>
-    bodies(unsigned int q) const;
-
-    internal::PairEnergies
-    factors_that_keep_energies(const internal::PairEnergies &found) const;
-
-    /// Distribute the energies of bodies that have been divided among the pairs of their parts, in
-    /// proportion to the energies @p found, see carry_history().
-    void
-    distribute_energies(const internal::PairEnergies &found);
-
+    /// Let each pair of bodies store no more than at the last accepted state, see
+    /// ContactTimeStep::begin().
     void
     keep_energies();
 
@@ -693,20 +557,11 @@ namespace NMM
     bool                     transmits_shear;
     internal::RoundedCorners rounded;
     /// See bound_initial_closure().
-    double largest_initial_closure = 0.;
-    /// See corner_sizes().
-    std::vector<double> corner_size;
-    std::vector<double> rule_points, rule_weights;
-    /// Space of the multipliers; null for the penalty method.
-    std::unique_ptr<internal::MultiplierSpace> multiplier_space;
-    /// By function of that space: normal springs are so much stiffer than their law [-], and weighted
-    /// penetrations of the last update [m]. Neither is a part of the history: the solution depends on
-    /// both within the tolerance only.
-    std::vector<double> stiffening, last_penetrations;
-    /// By function of that space: whether its springs have been seen to be stiff enough.
-    std::vector<bool> is_stiff_enough;
+    double                largest_initial_closure = 0.;
+    internal::Multipliers multipliers;
 
     internal::ContactMemory  memory;
+    internal::PointMaker     maker;
     internal::ActiveBodies   active;
     internal::ContactMatrix  matrix;
     Step                     step;
@@ -717,8 +572,7 @@ namespace NMM
     std::vector<dealii::Tensor<1, 2>> nodal;
     std::vector<ContactPoint>         points;
     std::vector<PointData>            point_data;
-    /// Faces that each point is beside, see ContactSearch::append_faces_beside(). They are found
-    /// when points are made, so that they do not change within a step.
+    /// See PointSet. They are found when points are made, so that they do not change within a step.
     std::vector<unsigned int> faces_beside;
     /// How far the faces of each body may move until the next search, and the largest sum of two
     /// of these ways [m].

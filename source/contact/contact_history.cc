@@ -21,14 +21,10 @@ namespace NMM
   {
     Data &d = *data;
     d.enter(Data::Stage::assembled, d.stage == Data::Stage::assembled);
-    Assert(d.multiplier_space != nullptr,
+    Assert(d.multipliers.are_used(),
            dealii::ExcMessage("There is no penetration tolerance."));
-    const MultiplierSpace &space  = *d.multiplier_space;
-    const unsigned int     n      = space.size();
-    const unsigned int     n_rule = d.rule_points.size();
-    // Integrals along the slaves of four products: spring pressure times function, function,
-    // stiffness times function, and pressure of the initial stress times function.
-    std::vector<double> sums(4 * n, 0.);
+    const unsigned int              n_rule = d.maker.n_rule();
+    std::vector<Multipliers::Point> along;
     // Points of corners follow those along edges.
     for (unsigned int begin = 0; begin < d.points.size() &&
                                  d.point_data[begin].corner >= PointKind::along;
@@ -40,48 +36,22 @@ namespace NMM
         d.surface->edges()[edge].length;
       for (unsigned int q = 0; q < n_rule; ++q)
       {
-        const ContactPoint &point = d.points[begin + q];
+        const ContactPoint    &point = d.points[begin + q];
+        const Data::PointData &fixed = d.point_data[begin + q];
         // Beside the master there is no penetration.
-        if (point.master == invalid_index || point.weight == 0.)
-          continue;
-        const auto  &f      = space[edge];
-        const double share  = f.share(d.point_data[begin + q].s);
-        const double weight = d.rule_weights[q] * length;
-        const double eps    = d.point_data[begin + q].stiffening *
-                           d.point_data[begin + q].law->normal_stiffness;
-        const auto add = [&](const unsigned int i, const double value) {
-          sums[i] -= eps * value * (point.gap - point.opening);
-          sums[n + i] += value;
-          sums[2 * n + i] += eps * value;
-          sums[3 * n + i] += d.initial_multiplier(begin + q) * value;
-        };
-        add(f.first, weight * (1. - share));
-        add(f.second, weight * share);
+        if (point.master != invalid_index && point.weight != 0.)
+          along.push_back({edge,
+                           fixed.s,
+                           d.maker.rule_weight(q) * length,
+                           fixed.stiffening * fixed.law->normal_stiffness,
+                           point.gap - point.opening,
+                           d.initial_multiplier(begin + q)});
       }
     }
-    Parallel::sum(sums, d.communicator, sums);
-
-    double              change = 0.;
-    std::vector<double> penetrations(n, 0.);
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      double value = 0.;
-      if (sums[n + i] > 0.)
-        // Their sum with the pressure of the initial stress is not negative.
-        value = std::max(-sums[3 * n + i] / sums[n + i],
-                         d.memory.multipliers[i] + sums[i] / sums[n + i]);
-      const double difference = std::abs(value - d.memory.multipliers[i]);
-      const double eps        = sums[n + i] > 0. ? sums[2 * n + i] / sums[n + i]
-                                                 : d.parameters.law->normal_stiffness;
-      penetrations[i]         = difference / eps;
-      // Stiffer springs must not make the pressure less accurate.
-      change = std::max(change, d.stiffening[i] * penetrations[i]);
-      d.memory.multipliers[i] = value;
-    }
-    if (change > d.parameters.penetration_tolerance)
-      d.stiffen_springs(penetrations);
-    else
-      d.last_penetrations.clear();
+    const double change =
+      d.multipliers.update(along,
+                           d.parameters.law->normal_stiffness,
+                           d.communicator);
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
       Data::PointData   &fixed = d.point_data[q];
@@ -89,38 +59,10 @@ namespace NMM
       if (fixed.corner < PointKind::along)
         continue;
       d.points[q].multiplier =
-        space.value(d.memory.multipliers, slave, fixed.s) +
-        d.initial_multiplier(q);
-      fixed.stiffening = space.value(d.stiffening, slave, fixed.s);
+        d.multipliers.value(slave, fixed.s) + d.initial_multiplier(q);
+      fixed.stiffening = d.multipliers.stiffening(slave, fixed.s);
     }
     return change;
-  }
-
-
-  void
-  Contact::Data::stiffen_springs(const std::vector<double> &penetrations)
-  {
-    // A ratio of successive penetrations above the first one is slow; springs are made so stiff that
-    // it becomes the second one. The last two bound a change, and all changes, since a ratio near
-    // 1 is known badly. A good ratio shows once and for all that springs are stiff enough: later ones
-    // tell of faces that open and close at the rim of a contact, and stiffer springs would make the
-    // pressure there rough.
-    constexpr double slow = 0.25, wanted = 0.1, most = 100., most_in_all = 1e6;
-    std::vector<double> last = penetrations;
-    for (unsigned int i = 0; i < last_penetrations.size(); ++i)
-    {
-      const double ratio = penetrations[i] / last_penetrations[i];
-      if (ratio > 0. && ratio <= slow)
-        is_stiff_enough[i] = true;
-      if (!(penetrations[i] > parameters.penetration_tolerance) ||
-          is_stiff_enough[i] || !(ratio < 1.))
-        continue;
-      stiffening[i] *= std::min(most, (1. / wanted - 1.) / (1. / ratio - 1.));
-      stiffening[i] = std::min(stiffening[i], most_in_all);
-      // The next ratio is that of springs of both kinds, and says nothing.
-      last[i] = 0.;
-    }
-    last_penetrations = last;
   }
 
 
@@ -350,7 +292,8 @@ namespace NMM
         dissipated += fixed.normal_loss;
     if (!d.transmits_shear)
     {
-      d.memory.energies_of_pairs = d.pair_energies();
+      d.memory.energies_of_pairs =
+        sum_energies(d.closed_springs(), d.communicator);
       return Parallel::sum(dissipated, d.communicator);
     }
     (void)break_bonds();
@@ -360,7 +303,8 @@ namespace NMM
       if (d.point_data[q].law != nullptr &&
           d.point_data[q].law->transmits_shear())
         dissipated += d.accept_shear(q);
-    d.memory.energies_of_pairs = d.pair_energies();
+    d.memory.energies_of_pairs =
+      sum_energies(d.closed_springs(), d.communicator);
     return Parallel::sum(dissipated, d.communicator);
   }
 
@@ -383,6 +327,7 @@ namespace NMM
   {
     ContactHistory result;
     result.is_conserving = data->is_conserving();
+    result.multipliers   = data->multipliers.all();
     data->memory.save(data->communicator, result);
     return result;
   }
@@ -393,8 +338,7 @@ namespace NMM
   {
     Data &d = *data;
     d.stage = Data::Stage::created;
-    d.is_stiff_enough.assign(d.stiffening.size(), false);
-    d.last_penetrations.clear();
+    d.multipliers.restore(history.multipliers);
     if (history.is_conserving)
       d.problem = Data::Problem::conserving_motion;
     d.memory.restore(history, *d.surface);

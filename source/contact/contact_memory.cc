@@ -130,7 +130,6 @@ namespace NMM
                         ContactHistory &history) const
     {
       history.has_accepted_state = has_accepted_state;
-      history.multipliers        = multipliers;
       history.searched_time      = searched_time;
       history.searched_reaches   = searched_reaches;
       history.touching_reach     = touching_reach;
@@ -164,8 +163,6 @@ namespace NMM
       const unsigned int n_edges = surface.edges().size();
       has_accepted_state         = history.has_accepted_state;
       touching_reach             = history.touching_reach;
-      if (history.multipliers.size() == multipliers.size())
-        multipliers = history.multipliers;
       if (!history.searched_displacements.empty())
       {
         const std::vector<double> &values = history.searched_displacements;

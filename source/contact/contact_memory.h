@@ -4,8 +4,8 @@
 #include <nmm/contact/contact_history.h>
 #include <nmm/contact/contact_surface.h>
 
-#include <array>
 #include <contact/contact_points.h>
+#include <contact/spring_energies.h>
 #include <map>
 #include <utility>
 #include <vector>
@@ -14,12 +14,6 @@ namespace NMM
 {
   namespace internal
   {
-    /// Energies of the normal and the shear springs between pairs of bodies, summed over all ranks
-    /// [J/m].
-    using PairEnergies =
-      std::map<std::pair<unsigned int, unsigned int>, std::array<double, 2>>;
-
-
     /**
      * What contact remembers of the last accepted state, on this rank; ContactHistory is the same
      * for all ranks, to be saved.
@@ -28,10 +22,8 @@ namespace NMM
     {
       /// Whether a state has been accepted yet. Faces that touch can become bonded only before
       /// that.
-      bool has_accepted_state = false;
-      /// Multipliers of the augmented Lagrangian [Pa]; empty for the penalty method.
-      std::vector<double> multipliers;
-      StickPlaces         stick_places;
+      bool        has_accepted_state = false;
+      StickPlaces stick_places;
       /// Master of each corner that is in contact, by place_key(): the face through which the
       /// corner came in.
       std::map<unsigned int, unsigned int> entrances;

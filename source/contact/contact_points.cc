@@ -23,87 +23,10 @@ namespace NMM
     }
 
 
-    namespace
+    double
+    cell_size(const ContactSurface::Edge &edge)
     {
-      /// Size of the edge's cell: the square root of its Jacobian determinant [m].
-      double
-      cell_size(const ContactSurface::Edge &edge)
-      {
-        return 1. / std::sqrt(std::abs(dealii::determinant(edge.inverse)));
-      }
-    } // namespace
-
-
-    MultiplierSpace::MultiplierSpace(const ContactSurface &surface)
-      : on_edges(surface.edges().size())
-    {
-      const auto       &edges = surface.edges();
-      std::vector<bool> is_done(edges.size(), false);
-      const auto        starts_anew = [&](const unsigned int e) {
-        return edges[e].previous == invalid_index ||
-               edges[e].at_start != ContactSurface::Corner::smooth;
-      };
-      // Begin with chains that start at corners and ends; closed smooth curves remain.
-      for (const bool from_corners : {true, false})
-        for (unsigned int first = 0; first < edges.size(); ++first)
-          if (!is_done[first] && !surface.is_rigid(first) &&
-              (!from_corners || starts_anew(first)))
-          {
-            std::vector<unsigned int> chain;
-            for (unsigned int e = first; e != invalid_index && !is_done[e] &&
-                                         (chain.empty() || !starts_anew(e));
-                 e = edges[e].next)
-            {
-              is_done[e] = true;
-              chain.push_back(e);
-            }
-            add_stretch(surface, chain);
-          }
-    }
-
-
-    /// Divide a smooth chain of edges into stretches.
-    void
-    MultiplierSpace::add_stretch(const ContactSurface            &surface,
-                                 const std::vector<unsigned int> &chain)
-    {
-      const auto               &edges = surface.edges();
-      std::vector<unsigned int> ends;
-      double                    length = 0.;
-      for (unsigned int i = 0; i < chain.size(); ++i)
-      {
-        length += edges[chain[i]].length;
-        if (length >= 0.75 * cell_size(edges[chain[i]]))
-        {
-          ends.push_back(i + 1);
-          length = 0.;
-        }
-      }
-      // The rest belongs to the last stretch.
-      if (ends.empty())
-        ends.push_back(chain.size());
-      ends.back() = chain.size();
-
-      unsigned int begin = 0;
-      for (const unsigned int end : ends)
-      {
-        double total = 0.;
-        for (unsigned int i = begin; i < end; ++i)
-          total += edges[chain[i]].length;
-        double passed = 0.;
-        for (unsigned int i = begin; i < end; ++i)
-        {
-          OnEdge &f  = on_edges[chain[i]];
-          f.first    = n_functions;
-          f.second   = n_functions + 1;
-          f.at_start = passed / total;
-          passed += edges[chain[i]].length;
-          f.at_end = passed / total;
-        }
-        ++n_functions;
-        begin = end;
-      }
-      ++n_functions;
+      return 1. / std::sqrt(std::abs(dealii::determinant(edge.inverse)));
     }
 
 

@@ -53,63 +53,6 @@ namespace NMM
                  std::vector<double> &weights);
 
 
-    /**
-     * Space of the multipliers of the augmented Lagrangian: functions that are continuous and
-     * linear along the boundary, on stretches that are about as long as cells, however these are
-     * cut. With a multiplier for each cut edge there would be more multipliers than displacements
-     * can satisfy, and pressures would oscillate. Multipliers may jump at corners.
-     */
-    class MultiplierSpace
-    {
-    public:
-      explicit MultiplierSpace(const ContactSurface &surface);
-
-      /// The two functions on an edge: their numbers, and the values of the second one at the ends
-      /// of the edge. It is linear in between, and both sum to 1.
-      struct OnEdge
-      {
-        unsigned int first = invalid_index, second = invalid_index;
-        double       at_start = 0., at_end = 0.;
-
-        double
-        share(const double s) const
-        {
-          return (1. - s) * at_start + s * at_end;
-        }
-      };
-
-      const OnEdge &
-      operator[](const unsigned int edge) const
-      {
-        return on_edges[edge];
-      }
-
-      unsigned int
-      size() const
-      {
-        return n_functions;
-      }
-
-      double
-      value(const std::vector<double> &coefficients,
-            const unsigned int         edge,
-            const double               s) const
-      {
-        const OnEdge &f = on_edges[edge];
-        return (1. - f.share(s)) * coefficients[f.first] +
-               f.share(s) * coefficients[f.second];
-      }
-
-    private:
-      void
-      add_stretch(const ContactSurface            &surface,
-                  const std::vector<unsigned int> &edges);
-
-      std::vector<OnEdge> on_edges;
-      unsigned int        n_functions = 0;
-    };
-
-
     /// The contact law of each pair of edges.
     class ContactLaws
     {
@@ -139,6 +82,11 @@ namespace NMM
       std::vector<unsigned int>                      edge_names, law_of_names;
       unsigned int                                   n_names = 0;
     };
+
+
+    /// Size of the edge's cell: the square root of its Jacobian determinant [m].
+    double
+    cell_size(const ContactSurface::Edge &edge);
 
 
     /**

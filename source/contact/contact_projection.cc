@@ -149,22 +149,12 @@ namespace NMM
   }
 
 
-  dealii::ArrayView<const unsigned int>
-  Contact::Data::masters_of(const PointData &fixed) const
-  {
-    const unsigned int slave = fixed.slave;
-    if (fixed.corner <= PointKind::along)
-      return search.masters(slave);
-    return dealii::ArrayView<const unsigned int>(&search.slaves()[slave], 1);
-  }
-
-
   ContactProjection
   Contact::Data::find_master(const unsigned int           q,
                              const ContactSurface::Place &slave) const
   {
     const PointData &fixed   = point_data[q];
-    const auto       masters = masters_of(fixed);
+    const auto       masters = masters_of(search, fixed);
 
     const AdmittedContact admitted = find_admitted(q);
     if (fixed.corner >= PointKind::along)
@@ -174,7 +164,7 @@ namespace NMM
       // An overlap that is much deeper than long came in through the other face of the corner.
       if (result.master != invalid_index &&
           result.gap < -CornerRules::deepest_of_piece * fixed.piece_length -
-                         CornerRules::shortest_piece * size_at(fixed))
+                         CornerRules::shortest_piece * maker.size_at(fixed))
         result = ContactProjection();
       return result;
     }

@@ -71,7 +71,8 @@ namespace NMM
     if (d.is_geometry_frozen())
       d.keep_cohesion();
     if (!d.memory.has_accepted_state)
-      d.memory.energies_of_pairs = d.pair_energies();
+      d.memory.energies_of_pairs =
+        sum_energies(d.closed_springs(), d.communicator);
     d.keep_energies();
     d.step.end = d.step.middle = d.surface->state();
     for (unsigned int q = 0; q < d.points.size(); ++q)

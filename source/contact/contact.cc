@@ -27,11 +27,10 @@ namespace NMM
              parameters_in.integration == ContactIntegration::points)
     , laws((parameters.check(), surface), parameters)
     , transmits_shear(parameters.transmit_shear())
-    , rounded(surface,
-              parameters_in.rounded_corners,
-              parameters_in.corner_rounding)
     , multipliers(surface, parameters.penetration_tolerance)
     , maker(surface, search, parameters, memory, multipliers)
+    , projector(surface, search, maker, memory, parameters)
+    , sums(surface, search, maker)
     , active(surface)
     , matrix(surface, constraints, search, memory.stick_places, active)
   {
@@ -112,6 +111,11 @@ namespace NMM
       return;
     if (is_frozen && !data->is_geometry_frozen())
       data->stage = Data::Stage::created;
+    for (Data::PointData &fixed : data->point_data)
+    {
+      fixed.keeps_cohesion = false;
+      fixed.kept_cohesion  = 0.;
+    }
     if (data->is_moving())
       data->problem =
         is_frozen ? Problem::motion_of_frozen_geometry : Problem::motion;
@@ -154,11 +158,11 @@ namespace NMM
     d.search.begin(!d.memory.has_accepted_state
                      ? ContactSearch::Begin::reference
                      : ContactSearch::Begin::unchanged);
+    PointSet made = d.maker.make(/* with_faces_beside = */ d.is_conserving());
+    d.points      = std::move(made.points);
+    d.point_data  = std::move(made.data);
+    d.projector.begin_step(d.reach, std::move(made.faces_beside));
     d.set_admitted_depth();
-    PointSet made  = d.maker.make(/* with_faces_beside = */ d.is_conserving());
-    d.points       = std::move(made.points);
-    d.point_data   = std::move(made.data);
-    d.faces_beside = std::move(made.faces_beside);
     if (d.is_geometry_frozen())
     {
       d.frozen.assign(d.points.size(), Data::FrozenPoint());
@@ -175,14 +179,10 @@ namespace NMM
   void
   Contact::Data::set_admitted_depth()
   {
-    constexpr double rounding = 1e-6;
-    // Conserving steps need no limit: contact that is found deep inside brings no energy, and would
-    // be lost for good if it were missed once.
-    edge_motions.clear();
-    admitted_depth =
-      is_conserving() ? std::numeric_limits<double>::max() : rounding * reach;
-    if (!is_conserving())
-      search.find_motions_since_begin(edge_motions);
+    if (is_conserving())
+      projector.admit_any_depth();
+    else
+      projector.bound_new_contact();
   }
 
 
@@ -256,69 +256,6 @@ namespace NMM
   }
 
 
-  /// The gap of a contact of relative curvature k at the distance d from a point is
-  /// @f$ g + d\,t\cdot n + k d^2 / 2, @f$ t being the tangent of the slave and n the normal of the
-  /// master. It is least at @f$ d = -t\cdot n / k. @f$
-  std::pair<double, double>
-  Contact::Data::deepest_beside(const unsigned int       q,
-                                const ContactProjection &projection) const
-  {
-    const ContactPoint &point = points[q];
-    const PointData    &fixed = point_data[q];
-    const double        curvature =
-      search.relative_curvature(point.edge, projection.master);
-    if (fixed.corner != PointKind::along || curvature <= 0.)
-      return {0., 0.};
-    const Tensor<1, 2> a      = surface->place(point.edge, point.s).a;
-    const double       length = a.norm();
-    const double       way    = -(a * projection.normal) / (curvature * length);
-    const double       s      = point.s + way / length;
-    if (s < 0. || s > 1. || std::abs(way) > fixed.piece_length)
-      return {0., 0.};
-    return {way, 0.5 * curvature * way * way};
-  }
-
-
-  void
-  Contact::Data::note_depth(const unsigned int       q,
-                            const ContactProjection &projection)
-  {
-    const ContactPoint &point = points[q];
-    const PointData    &fixed = point_data[q];
-    // The largest penetration is taken over points with pressure, and where a round face is in the
-    // other one between points that are not. This leaves out points that were found behind a face
-    // without having passed it, which store no energy, and pieces of faces that are too short to
-    // bear anything, because the other face of the corner does.
-    // The closure by the initial stress is no penetration.
-    const double opening = point.opening - initial_closure(q);
-    double       depth   = opening - projection.gap;
-    if (point.pressure <= 0. && depth > 0.)
-      return;
-    const auto [way, more] = deepest_beside(q, projection);
-    depth += more;
-    if (depth <= report.largest_penetration ||
-        (fixed.corner >= PointKind::along &&
-         fixed.piece_length <=
-           CornerRules::shortest_piece * maker.size_at(fixed)))
-      return;
-    // A point is pushed out through the face by which it came in, which may be further away than
-    // another face.
-    if (opening == 0.)
-    {
-      const ContactSurface::Place here = surface->place(point.edge, point.s);
-      const ContactSurface::Place deepest_place =
-        way == 0. ? here
-                  : surface->place(point.edge, point.s + way / here.a.norm());
-      depth =
-        std::min(depth,
-                 search.depth_inside(fixed.slave,
-                                     surface->edges()[projection.master].body,
-                                     deepest_place.x));
-    }
-    report.largest_penetration = std::max(report.largest_penetration, depth);
-  }
-
-
   void
   Contact::Data::find_forces(const unsigned int     q,
                              const ContactTraction &traction,
@@ -384,22 +321,10 @@ namespace NMM
                             PointForces       &forces)
   {
     const ContactPoint &point = points[q];
-    report.n_changes += forces.has_changed;
-    report.energy += forces.energy;
-    if (forces.is_near)
-      note_depth(q, forces.projection);
+    sums.add(point, point_data[q], forces, is_between());
     if (!forces.has_forces)
       return;
-    const PointData &fixed = point_data[q];
     active.note_pressed(point.edge, point.master);
-    ++(point.state == ContactState::stick ? report.n_stick : report.n_slip);
-    report.n_bonded += point.is_bonded;
-    deepest =
-      std::max(deepest,
-               (is_between() ? fixed.offset_end : fixed.offset) +
-                 point.opening - initial_closure(q) - forces.projection.gap);
-    report.force += forces.force;
-    rounding_square += forces.rounding_square;
     if (with_tangent && is_between())
       active.note_coupled(point.edge, point.master);
     matrix.add(forces.local);
@@ -439,38 +364,12 @@ namespace NMM
 
 
   void
-  Contact::Data::reduce_report()
-  {
-    report.is_between = is_between();
-    report.n_points   = points.size();
-    report.n_open     = report.n_points - report.n_stick - report.n_slip;
-    if (Parallel::n_mpi_processes(communicator) == 1)
-      return;
-    for (unsigned int *count : {&report.n_points,
-                                &report.n_open,
-                                &report.n_stick,
-                                &report.n_slip,
-                                &report.n_bonded,
-                                &report.n_changes})
-      *count = Parallel::sum(*count, communicator);
-    report.largest_penetration =
-      Parallel::max(report.largest_penetration, communicator);
-    deepest         = Parallel::max(deepest, communicator);
-    report.energy   = Parallel::sum(report.energy, communicator);
-    report.force    = Parallel::sum(report.force, communicator);
-    rounding_square = Parallel::sum(rounding_square, communicator);
-  }
-
-
-  void
   Contact::assemble(const Vector &u, const bool with_tangent)
   {
     Data &d = *data;
     d.enter(d.is_between() ? Data::Stage::step_ended : Data::Stage::assembled,
             d.stage != Data::Stage::created);
-    d.report          = ContactReport();
-    d.deepest         = 0.;
-    d.rounding_square = 0.;
+    d.sums.begin();
     if (d.is_idle)
     {
       d.matrix.clear_forces();
@@ -489,7 +388,7 @@ namespace NMM
                    d.evaluate(q, with_tangent, forces);
                  });
     d.matrix.end_assembly();
-    d.reduce_report();
+    d.sums.end(d.points.size(), d.is_between());
   }
 
 
@@ -538,7 +437,7 @@ namespace NMM
   double
   Contact::force_rounding() const
   {
-    return data->is_idle ? 0. : std::sqrt(data->rounding_square);
+    return data->is_idle ? 0. : data->sums.rounding();
   }
 
 
@@ -580,7 +479,7 @@ namespace NMM
   const ContactReport &
   Contact::report() const
   {
-    return data->report;
+    return data->sums.report();
   }
 
 

@@ -17,7 +17,9 @@
 #include <contact/multipliers.h>
 #include <contact/point_data.h>
 #include <contact/point_maker.h>
-#include <contact/rounded_corners.h>
+#include <contact/point_projector.h>
+#include <contact/point_springs.h>
+#include <contact/point_sums.h>
 #include <contact/spring_energies.h>
 #include <memory>
 #include <vector>
@@ -26,8 +28,9 @@ namespace NMM
 {
   struct Contact::Data
   {
-    using Dilation  = internal::Dilation;
-    using PointData = internal::PointData;
+    using Dilation    = internal::Dilation;
+    using PointData   = internal::PointData;
+    using PointForces = internal::PointForces;
 
     Data(ContactSurface                          &surface,
          const dealii::AffineConstraints<double> &constraints,
@@ -148,31 +151,7 @@ namespace NMM
     internal::ContactProjection
     project(unsigned int q, const ContactSurface::Place &slave);
 
-    /// If a corner lies beyond the concave end of a face, the face that begins there, else
-    /// invalid_index. If the body lies along the first face, its corner has no share in the contact
-    /// with that face, and the full share in the contact with the second one, whatever the angle
-    /// is.
-    unsigned int
-    face_beyond_concave_end(
-      const internal::ContactProjection &projection) const;
-
-    /// Let a corner that is in contact only at one end of a step be in contact with the face of
-    /// that end. At a corner of the master the nearest face in the middle of the step jumps, and
-    /// the force would jump with it.
-    void
-    stay_with_face_of_end(unsigned int                 q,
-                          const ContactSurface::Place &slave,
-                          internal::ContactProjection &projection) const;
-
-    /// Whether one of the edges continues smoothly into the other within @p n_edges edges.
-    bool
-    goes_on(unsigned int edge,
-            unsigned int other,
-            unsigned int n_edges = 4) const;
-
-    /// Set the depth that new contact may have: as far as faces have moved since the beginning of
-    /// the step, and in the first step since the reference configuration, in which blocks do not
-    /// overlap. In steps that conserve energy there is no limit.
+    /// Let new contact be as deep as the problem admits, see PointProjector.
     void
     set_admitted_depth();
 
@@ -183,23 +162,8 @@ namespace NMM
     void
     note_touching(unsigned int edge, unsigned int master);
 
-    internal::AdmittedContact
-    find_admitted(unsigned int q) const;
-
-    /**
-     * Gap of a projection in statics, computed from displacements. With reference positions X and
-     * the normal N there,
-     * @f[ g = (u_s - u_m)\cdot n + (X_s - X_m)\cdot(n - N) + (X_s - X_m)\cdot N. @f]
-     * This equals the gap between positions, but has the precision of displacements: under small
-     * loads stiff springs are compressed by less than the rounding of positions. The last term is
-     * 0 where faces are drawn as touching, so that they touch under any load.
-     */
-    double
-    gap_of_displacements(unsigned int                       q,
-                         const internal::ContactProjection &projection) const;
-
     /// Vector from the anchor of a point to the point [m]; in statics computed from displacements
-    /// as gap_of_displacements().
+    /// as PointProjector::gap_of_displacements().
     dealii::Tensor<1, 2>
     way_from_stick(unsigned int q, const ContactSurface::Place &slave) const;
 
@@ -210,39 +174,8 @@ namespace NMM
     new_anchor(unsigned int                       q,
                const internal::ContactProjection &projection) const;
 
-    /// The master of a point by ContactSearch, for a point along an edge or a corner.
-    internal::ContactProjection
-    find_master(unsigned int q, const ContactSurface::Place &slave) const;
-
     /// @name One point in an assembly
     /// @{
-    /// What a contact point adds to forces, tangent and report. Points are evaluated on several
-    /// threads: each evaluation writes to its point and to one of these, and the sums are made in the
-    /// order of the points, see add_points().
-    struct PointForces
-    {
-      // The arrays of the local system stay uninitialized.
-      PointForces() {}
-
-      /// Begin with a point that adds nothing.
-      void
-      clear()
-      {
-        has_changed = is_near = has_forces = false;
-        energy = rounding_square = 0.;
-      }
-
-      /// Whether the state of the point differs from the one before, whether its depth counts for
-      /// the largest penetration, and whether it exerts forces.
-      bool has_changed = false, is_near = false, has_forces = false;
-      internal::ContactProjection projection;
-      /// Energy of its springs [J/m], and square of force_rounding() [N^2/m^2].
-      double energy = 0., rounding_square = 0.;
-      /// Force on the slave [N/m]; set if there are forces, and so is the local system.
-      dealii::Tensor<1, 2>         force;
-      internal::ContactLocalSystem local;
-    };
-
     /// Evaluate the points with these numbers by evaluate(q, forces), a function that may run on
     /// several threads, and add what they exert.
     template <typename Evaluate>
@@ -254,16 +187,6 @@ namespace NMM
     /// Add the forces of one point to the matrix, the residual and the report.
     void
     take_point(unsigned int q, bool with_tangent, PointForces &forces);
-
-    /// Include the penetration at a point in the report, or at the deepest place beside it.
-    void
-    note_depth(unsigned int q, const internal::ContactProjection &projection);
-
-    /// Distance along the slave from a point to the place between it and the next points where a
-    /// curved contact is deepest [m], and how much deeper it is there [m]; 0 if there is none.
-    std::pair<double, double>
-    deepest_beside(unsigned int                       q,
-                   const internal::ContactProjection &projection) const;
 
     /// Forces and tangent of a point under its traction.
     void
@@ -316,17 +239,6 @@ namespace NMM
                        double                            *pressure_change,
                        double *half_slip_change) const;
 
-    /// Unit normal of the other edge that meets in a corner; zero if there is none.
-    dealii::Tensor<1, 2>
-    normal_of_other_edge(unsigned int q) const;
-
-    /// Fraction of its weight that a point has in the contact with a face of this normal, see
-    /// ContactSearch.
-    double
-    share(unsigned int                q,
-          const dealii::Tensor<1, 2> &slave_normal,
-          const dealii::Tensor<1, 2> &master_normal) const;
-
     /// Opening by dilation at the current positions. Since the last accepted state a closed point
     /// slides as far as its strength does not hold it, and an open one without strength. Sets the
     /// slip of the point.
@@ -335,78 +247,14 @@ namespace NMM
                   const ContactSurface::Place       &slave,
                   const internal::ContactProjection &projection);
 
-    /// Opening by the slip at the last accepted state, and by the initial stress [m].
-    double
-    opening_before(const unsigned int q) const
-    {
-      const ContactLaw *law = point_data[q].law;
-      return law == nullptr
-               ? 0.
-               : law->opening(point_data[q].slip) + initial_closure(q);
-    }
-
-    /// Whether a point bears the initial stress: tension only as long as it is bonded.
-    bool
-    bears_initial_stress(const unsigned int q) const
-    {
-      return point_data[q].initial_pressure > 0. || points[q].is_bonded;
-    }
-
-    /// Shear of the initial stress [Pa]. The spring adds to it.
-    double
-    initial_shear(const unsigned int q) const
-    {
-      return bears_initial_stress(q) ? point_data[q].initial_shear : 0.;
-    }
-
-    /// Closure of the spring of a point by the initial stress [m]; its law must be known.
-    double
-    initial_closure(const unsigned int q) const
-    {
-      const double pressure =
-        bears_initial_stress(q)
-          ? point_data[q].initial_pressure - initial_multiplier(q)
-          : 0.;
-      return pressure == 0. ? 0.
-                            : point_data[q].law->penetration(
-                                pressure / point_data[q].stiffening);
-    }
-
-    /// Pressure of the normal spring of a point, and its derivative by the closure [m].
-    ContactLaw::Response
-    spring_pressure(const unsigned int q, const double closure) const
-    {
-      ContactLaw::Response spring = point_data[q].law->pressure(closure);
-      spring.value *= point_data[q].stiffening;
-      spring.derivative *= point_data[q].stiffening;
-      return spring;
-    }
-
-    /// Part of the multiplier of a point that is the pressure of the initial stress [Pa].
-    double
-    initial_multiplier(const unsigned int q) const
-    {
-      return multipliers.are_used()
-               ? std::max(0., point_data[q].initial_pressure)
-               : 0.;
-    }
-
     /// Upper bound on the closure of springs by the initial stress, over all edges and laws, but at
     /// most the reach [m].
     double
     bound_initial_closure() const;
 
-    /// Whether the point has cohesion in a step of frozen geometry, even if it opens.
-    bool
-    keeps_cohesion(unsigned int q) const;
-
     /// Set the cohesion that points keep in a step of frozen geometry.
     void
     keep_cohesion();
-
-    /// ContactLaw::strength(), with the cohesion that the point keeps.
-    ContactLaw::Strength
-    find_strength(unsigned int q, double pressure, double slip) const;
 
     /// Shear of the spring of a point if nothing slides [Pa].
     double
@@ -446,9 +294,6 @@ namespace NMM
                   const internal::ContactProjection &projection,
                   double                            &energy);
 
-    /// Ratio of stress to strength of a bond; negative if the point is not bonded.
-    double
-    bond_ratio(unsigned int q) const;
     /// @}
 
     double
@@ -480,26 +325,6 @@ namespace NMM
     least_motion() const
     {
       return 1e-4 * reach;
-    }
-
-    void
-    reduce_report();
-
-    /// Energy of the normal spring of a point under a pressure, and of its shear spring under a
-    /// shear [J/m].
-    double
-    normal_energy(const unsigned int q, const double pressure) const
-    {
-      const ContactLaw &law        = *point_data[q].law;
-      const double      stiffening = point_data[q].stiffening;
-      return points[q].weight * stiffening *
-             law.energy(law.penetration(pressure / stiffening));
-    }
-
-    double
-    shear_energy(const unsigned int q, const double shear) const
-    {
-      return points[q].weight * point_data[q].law->shear_energy(shear);
     }
 
     /// The springs of all closed points.
@@ -549,19 +374,19 @@ namespace NMM
       bool                        is_known = false;
     };
 
-    ContactSurface          *surface;
-    ContactParameters        parameters;
-    MPI_Comm                 communicator;
-    internal::ContactSearch  search;
-    internal::ContactLaws    laws;
-    bool                     transmits_shear;
-    internal::RoundedCorners rounded;
+    ContactSurface         *surface;
+    ContactParameters       parameters;
+    MPI_Comm                communicator;
+    internal::ContactSearch search;
+    internal::ContactLaws   laws;
+    bool                    transmits_shear;
     /// See bound_initial_closure().
     double                largest_initial_closure = 0.;
     internal::Multipliers multipliers;
 
     internal::ContactMemory  memory;
     internal::PointMaker     maker;
+    internal::PointProjector projector;
     internal::ActiveBodies   active;
     internal::ContactMatrix  matrix;
     Step                     step;
@@ -572,16 +397,10 @@ namespace NMM
     std::vector<dealii::Tensor<1, 2>> nodal;
     std::vector<ContactPoint>         points;
     std::vector<PointData>            point_data;
-    /// See PointSet. They are found when points are made, so that they do not change within a step.
-    std::vector<unsigned int> faces_beside;
     /// How far the faces of each body may move until the next search, and the largest sum of two
     /// of these ways [m].
     std::vector<double> reaches;
     double              reach = 0.;
-    /// Largest depth of new contact of an edge that has not moved, see AdmittedContact [m].
-    double admitted_depth = 0.;
-    /// Way of each edge since the last accepted state [m], where it bounds the depth of new contact.
-    std::vector<double> edge_motions;
     /// Time of set_time() [s].
     double time    = 0.;
     bool   is_idle = true;
@@ -591,11 +410,8 @@ namespace NMM
     /// Whether dilation is that of the last accepted state, in ContactTimeStep::begin().
     bool slip_is_frozen = false;
 
-    /// Report of the last assembly, and the largest penetration of its springs without offsets [m].
-    ContactReport report;
-    double        deepest = 0.;
-    /// Sum of the squares of force_rounding() in the last assembly [N^2/m^2].
-    double rounding_square = 0.;
+    /// Those of the last assembly.
+    internal::PointSums sums;
     /// Energy of bonds that broke since the last accepted state [J/m].
     double broken_energy = 0.;
   };

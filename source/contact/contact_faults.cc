@@ -60,7 +60,8 @@ namespace NMM
         std::make_unique<ContactCrossings>(*surface, parameters.reach);
     const double motion =
       2. * *std::max_element(motions.begin(), motions.end());
-    const double depth = std::max(deepest, report.largest_penetration);
+    const double depth =
+      std::max(sums.deepest(), sums.report().largest_penetration);
     if (!crossings->may_cross(motion + depth))
       return {};
 
@@ -121,9 +122,9 @@ namespace NMM
     d.move_to(end);
     const std::vector<double> motions = d.search.motions();
     std::ostringstream        text;
-    if (!d.is_idle && d.deepest > 0.5 * d.reach)
+    if (!d.is_idle && d.sums.deepest() > 0.5 * d.reach)
     {
-      text << "a penetration of " << d.deepest
+      text << "a penetration of " << d.sums.deepest()
            << " m, more than half of the distance of " << d.reach
            << " m within which faces are looked for";
       return {

@@ -45,7 +45,7 @@ namespace NMM
                            d.maker.rule_weight(q) * length,
                            fixed.stiffening * fixed.law->normal_stiffness,
                            point.gap - point.opening,
-                           d.initial_multiplier(begin + q)});
+                           fixed.initial_multiplier});
       }
     }
     const double change =
@@ -59,64 +59,50 @@ namespace NMM
       if (fixed.corner < PointKind::along)
         continue;
       d.points[q].multiplier =
-        d.multipliers.value(slave, fixed.s) + d.initial_multiplier(q);
+        d.multipliers.value(slave, fixed.s) + fixed.initial_multiplier;
       fixed.stiffening = d.multipliers.stiffening(slave, fixed.s);
     }
     return change;
   }
 
 
-  double
-  Contact::Data::bond_ratio(const unsigned int q) const
-  {
-    const ContactPoint &point = points[q];
-    const ContactLaw   *law   = point_data[q].law;
-    if (!point.is_bonded || law == nullptr)
-      return -1.;
-    // Without strength, any stress beyond rounding breaks the bond.
-    const auto ratio = [&](const double stress, const double strength) {
-      const double least = 1e-9 * reach * law->normal_stiffness;
-      return std::max(0., stress) / std::max(strength, least);
-    };
-    return std::max(ratio(-point.pressure, law->tensile_strength),
-                    ratio(std::abs(point.shear),
-                          law->bond_strength(std::max(0., point.pressure))));
-  }
-
-
   unsigned int
   Contact::break_bonds(const double share)
   {
-    Data  &d       = *data;
-    double largest = 0.;
+    Data        &d        = *data;
+    const double rounding = 1e-9 * d.reach;
+    double       largest  = 0.;
     for (unsigned int q = 0; q < d.points.size(); ++q)
-      largest = std::max(largest, d.bond_ratio(q));
+      largest =
+        std::max(largest, bond_ratio(d.points[q], d.point_data[q], rounding));
     largest            = Parallel::max(largest, d.communicator);
     unsigned int count = 0;
     if (largest <= 1.)
       return 0;
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
-      const double ratio = d.bond_ratio(q);
+      ContactPoint          &point = d.points[q];
+      const Data::PointData &fixed = d.point_data[q];
+      const double           ratio = bond_ratio(point, fixed, rounding);
       if (ratio <= 1. || ratio < share * largest)
         continue;
-      ContactPoint     &point = d.points[q];
-      const ContactLaw &law   = *d.point_data[q].law;
+      const ContactLaw &law = *fixed.law;
       if (point.pressure < 0.)
-        d.broken_energy += d.normal_energy(q, point.pressure);
+        d.broken_energy += normal_energy(point, fixed, point.pressure);
       const double limit =
-        law.strength(std::max(0., point.pressure), d.point_data[q].slip).value;
+        law.strength(std::max(0., point.pressure), fixed.slip).value;
       const double shear =
         std::copysign(std::min(limit, std::abs(point.shear)), point.shear);
-      d.broken_energy +=
-        d.shear_energy(q, point.shear) - d.shear_energy(q, shear);
+      d.broken_energy += shear_energy(point, fixed, point.shear) -
+                         shear_energy(point, fixed, shear);
       // The point slides from now on, and its anchor is dragged along.
       const double length =
         d.surface->place(point.stick_edge, point.stick_t).a.norm();
-      const double initial = d.initial_shear(q);
+      const double initial = initial_shear(point, fixed);
       point.is_bonded      = false;
-      point.stick_t += (point.shear - initial - shear + d.initial_shear(q)) /
-                       (law.shear_spring() * length);
+      point.stick_t +=
+        (point.shear - initial - shear + initial_shear(point, fixed)) /
+        (law.shear_spring() * length);
       point.shear = shear;
       if (point.pressure < 0.)
       {
@@ -124,11 +110,11 @@ namespace NMM
         point.state    = ContactState::open;
       }
       ++count;
-      // Store the anchor where make_points() looks for it.
+      // Store the anchor where PointMaker looks for it.
       const StickPlace place{
-        point.s, point.stick_edge, point.stick_t, false, d.point_data[q].slip};
+        point.s, point.stick_edge, point.stick_t, false, fixed.slip};
       d.memory.stick_places.insert(
-        place_key(*d.surface, point.edge, d.point_data[q].corner), place);
+        place_key(*d.surface, point.edge, fixed.corner), place);
     }
     return Parallel::sum(count, d.communicator);
   }
@@ -144,8 +130,8 @@ namespace NMM
     double        dissipated = 0.;
     if (is_between())
     {
-      const double before = shear_energy(q, fixed.shear_begin);
-      const double after  = shear_energy(q, point.shear);
+      const double before = shear_energy(point, fixed, fixed.shear_begin);
+      const double after  = shear_energy(point, fixed, point.shear);
       const double most   = std::max(0., before + fixed.shear_work);
       // The spring must not store more than the work done on it. Where a point touches for the
       // first time, the pressure in the step, and with it the strength, has been lower than at the
@@ -164,8 +150,8 @@ namespace NMM
       return dissipated;
     // In steps, find_pressure_between() has subtracted the work of dilation.
     if (!is_between())
-      dissipated -=
-        point.weight * point.pressure * (point.opening - opening_before(q));
+      dissipated -= point.weight * point.pressure *
+                    (point.opening - opening_before(point, fixed));
     fixed.slip += fixed.new_slip;
     fixed.new_slip = 0.;
     StickPlace place{
@@ -177,8 +163,8 @@ namespace NMM
     }
     else if (point.state == ContactState::slip)
     {
-      const Tensor<1, 2> a       = surface->place(point.master, point.t).a;
-      const double       elastic = (point.shear - initial_shear(q)) / eps;
+      const Tensor<1, 2> a = surface->place(point.master, point.t).a;
+      const double elastic = (point.shear - initial_shear(point, fixed)) / eps;
       place.t -= elastic / a.norm();
       if (!is_between())
         dissipated +=

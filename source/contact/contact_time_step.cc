@@ -77,7 +77,8 @@ namespace NMM
     d.step.end = d.step.middle = d.surface->state();
     for (unsigned int q = 0; q < d.points.size(); ++q)
     {
-      d.point_data[q].gap_begin    = d.points[q].gap - d.opening_before(q);
+      d.point_data[q].gap_begin =
+        d.points[q].gap - opening_before(d.points[q], d.point_data[q]);
       d.point_data[q].master_begin = d.points[q].master;
       d.point_data[q].shear_begin  = d.points[q].shear;
       // The anchor of a point that slides or has no shear follows from its shear. Anchors that are
@@ -91,7 +92,7 @@ namespace NMM
       const double length = d.surface->place(point.master, point.t).a.norm();
       point.stick_edge    = point.master;
       point.stick_t       = point.t;
-      point.stick_t -= (point.shear - d.initial_shear(q)) /
+      point.stick_t -= (point.shear - initial_shear(point, d.point_data[q])) /
                        (d.point_data[q].law->shear_spring() * length);
     }
     d.stage = Data::Stage::step_begun;
@@ -103,10 +104,11 @@ namespace NMM
   {
     for (unsigned int q = 0; q < points.size(); ++q)
     {
-      const ContactLaw *const law = point_data[q].law;
-      if (law != nullptr && !law->depends_on_slip())
-        point_data[q].kept_cohesion =
-          law->cohesion_at(points[q].pressure).value;
+      PointData &fixed = point_data[q];
+      fixed.keeps_cohesion =
+        fixed.law != nullptr && !fixed.law->depends_on_slip();
+      if (fixed.keeps_cohesion)
+        fixed.kept_cohesion = fixed.law->cohesion_at(points[q].pressure).value;
     }
   }
 
@@ -150,7 +152,7 @@ namespace NMM
     // is lost. So new masters do not create energy. Gaps here do not include the opening of this
     // step by dilation.
     const double least  = least_motion();
-    const double rise   = fixed.dilation.opening - opening_before(q);
+    const double rise   = fixed.dilation.opening - opening_before(point, fixed);
     const double motion = opening - rise;
     double       g_0    = fixed.gap_begin - fixed.offset;
     double       g_1    = fixed.gap_end - fixed.offset;
@@ -315,7 +317,7 @@ namespace NMM
     const double      slip   = (motion * projection.place.a) / length;
     const bool        is_coming =
       fixed.master_begin == invalid_index ||
-      !goes_on(fixed.master_begin, projection.master) ||
+      !goes_on(*surface, fixed.master_begin, projection.master) ||
       (fixed.gap_begin >= fixed.offset && !point.is_bonded);
     if (is_coming)
     {
@@ -323,7 +325,8 @@ namespace NMM
       point.stick_edge = projection.master;
       point.stick_t =
         projection.t +
-        (initial_shear(q) / law.shear_spring() - 0.5 * slip) / length;
+        (initial_shear(point, fixed) / law.shear_spring() - 0.5 * slip) /
+          length;
     }
     const double by_half_slip =
       law.shear_spring() + 2. * law.shear_damping / step.length;
@@ -356,14 +359,15 @@ namespace NMM
     else
     {
       const ContactSurface::Place slave = surface->place(point.edge, point.s);
-      const ContactProjection     projection = find_master(q, slave);
-      fixed.master_end                       = projection.master;
-      fixed.t_end                            = projection.t;
-      fixed.normal_end                       = projection.normal;
-      fixed.dilation.opening                 = opening_before(q);
+      const ContactProjection     projection =
+        projector.find_master(point, fixed, slave);
+      fixed.master_end       = projection.master;
+      fixed.t_end            = projection.t;
+      fixed.normal_end       = projection.normal;
+      fixed.dilation.opening = opening_before(point, fixed);
       if (fixed.master_begin != invalid_index &&
           projection.master != invalid_index &&
-          goes_on(fixed.master_begin, projection.master))
+          goes_on(*surface, fixed.master_begin, projection.master))
         fixed.dilation = find_dilation(q, slave, projection);
       fixed.gap_end = projection.master == invalid_index
                         ? reach
@@ -469,7 +473,7 @@ namespace NMM
       numbers.size(),
       [&](const unsigned int i, PointEnd &end) { end = find_end(numbers[i]); },
       [&](const unsigned int i, const PointEnd &end) {
-        report.n_changes += end.has_opened;
+        sums.add_changes(end.has_opened);
         if (end.is_near)
           step.near_points.push_back(numbers[i]);
       });
@@ -530,9 +534,7 @@ namespace NMM
             d.stage == Data::Stage::step_begun ||
               d.stage == Data::Stage::step_assembled ||
               d.stage == Data::Stage::step_ended);
-    d.report          = ContactReport();
-    d.rounding_square = 0.;
-    d.deepest         = 0.;
+    d.sums.begin();
     if (with_tangent)
       d.active.clear_coupled();
     if (d.is_idle)
@@ -579,7 +581,7 @@ namespace NMM
                    d.evaluate_between(q, with_tangent, forces);
                  });
     d.matrix.end_assembly();
-    d.reduce_report();
+    d.sums.end(d.points.size(), d.is_between());
   }
 
 

@@ -77,13 +77,13 @@ namespace NMM
     // step is measured. Where corners of two bodies coincide, a second projection of the same state
     // may find another face, since rounding decides which is nearest.
     ContactLaw::Response spring = spring_pressure(
-      q,
+      point_data[q],
       is_between() ? point_data[q].offset_end - point_data[q].gap_end
                    : point.opening - projection.gap + point_data[q].offset);
     point.pressure = point.multiplier + spring.value;
     const bool is_open =
       !point.is_bonded && point.pressure < -eps * touching * reach;
-    if (is_open && !keeps_cohesion(q))
+    if (is_open && point_data[q].kept_cohesion == 0.)
     {
       point.pressure = point.shear = 0.;
       point.state                  = ContactState::open;
@@ -99,8 +99,8 @@ namespace NMM
       point.weight * spring.derivative * dilation.by_gap;
     traction.pressure_by_slip =
       -point.weight * spring.derivative * dilation.by_slip;
-    energy +=
-      normal_energy(q, point.pressure) - normal_energy(q, point.multiplier);
+    energy += normal_energy(point, point_data[q], point.pressure) -
+              normal_energy(point, point_data[q], point.multiplier);
     const bool was_slipping = point.state == ContactState::slip;
     point.state             = ContactState::slip;
     if (law.transmits_shear())
@@ -111,34 +111,9 @@ namespace NMM
                  law.shear_spring(),
                  was_slipping,
                  traction);
-      energy += shear_energy(q, point.shear);
+      energy += shear_energy(point, point_data[q], point.shear);
     }
     return traction;
-  }
-
-
-  bool
-  Contact::Data::keeps_cohesion(const unsigned int q) const
-  {
-    return problem == Problem::motion_of_frozen_geometry &&
-           point_data[q].kept_cohesion > 0.;
-  }
-
-
-  ContactLaw::Strength
-  Contact::Data::find_strength(const unsigned int q,
-                               const double       pressure,
-                               const double       slip) const
-  {
-    const ContactLaw    &law      = *point_data[q].law;
-    ContactLaw::Strength strength = law.strength(pressure, slip);
-    if (problem == Problem::motion_of_frozen_geometry && !law.depends_on_slip())
-    {
-      const ContactLaw::Response cohesion = law.cohesion_at(pressure);
-      strength.value += point_data[q].kept_cohesion - cohesion.value;
-      strength.by_pressure -= cohesion.derivative;
-    }
-    return strength;
   }
 
 
@@ -147,7 +122,7 @@ namespace NMM
                              const ContactSurface::Place &slave,
                              const ContactProjection     &projection) const
   {
-    return initial_shear(q) +
+    return initial_shear(points[q], point_data[q]) +
            point_data[q].law->shear_spring() *
              (way_from_stick(q, slave) * projection.place.a) /
              projection.place.a.norm();
@@ -167,7 +142,7 @@ namespace NMM
     PointData          &fixed = point_data[q];
     const ContactLaw   &law   = *fixed.law;
     fixed.new_slip            = 0.;
-    result.opening            = opening_before(q);
+    result.opening            = opening_before(point, fixed);
     if (law.dilation == 0. || slip_is_frozen || point.is_bonded)
       return result;
     // Bodies that do not touch anywhere do not slide on each other.
@@ -193,13 +168,13 @@ namespace NMM
     for (unsigned int i = 0; i < max_iterations; ++i)
     {
       const ContactLaw::Response spring =
-        spring_pressure(q, closure + law.dilation * slip);
+        spring_pressure(fixed, closure + law.dilation * slip);
       const double pressure = point.multiplier + spring.value;
       is_held               = pressure > 0. || i == 0;
       if (!is_held)
         break;
       const ContactLaw::Strength strength =
-        find_strength(q, pressure, fixed.slip + slip);
+        find_strength(fixed, pressure, fixed.slip + slip);
       const double excess = std::abs(trial) - eps * slip - strength.value;
       if (i == 0 && excess <= 0.)
         return result;
@@ -241,7 +216,7 @@ namespace NMM
     const ContactLaw::Strength strength =
       finds_slip
         ? strength_after_slip(law, point.pressure, fixed.slip, trial, stiffness)
-        : find_strength(q, point.pressure, fixed.slip + fixed.new_slip);
+        : find_strength(fixed, point.pressure, fixed.slip + fixed.new_slip);
     const double limit = strength.value;
     // The residual and its tangent are two assemblies at the same displacements.
     if (trial != point.spring_shear)

@@ -178,9 +178,9 @@ namespace NMM
        * - Of two faces that meet in a convex corner the one that faces the point more is taken,
        *   ContactSearch::project_within(): ContactPatch.InclinedJointsUnderHydrostaticPressure.
        * - A corner that touches only at one end of a step stays with the face of that end,
-       *   Contact::Data::stay_with_face_of_end(): ContactSteps.CornerBesideACorner.
+       *   PointProjector::stay_with_face_of_end(): ContactSteps.CornerBesideACorner.
        * - A corner beyond a concave end belongs to the face that begins there,
-       *   face_beyond_concave_end(): ContactSteps.CornerPassesAFoot.
+       *   PointProjector::face_beyond_concave_end(): ContactSteps.CornerPassesAFoot.
        */
     } // namespace CornerRules
   }   // namespace internal

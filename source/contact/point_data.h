@@ -63,9 +63,12 @@ namespace NMM
       double stiffening = 1.;
       /// Slip that causes dilation or weakening: at the last accepted state, and since then [m].
       double slip = 0., new_slip = 0.;
-      /// Cohesion at the beginning of a time step of frozen geometry, which acts in the whole step
-      /// [Pa].
-      double kept_cohesion = 0.;
+      /// Part of ContactPoint::multiplier that is the pressure of the initial stress [Pa].
+      double initial_multiplier = 0.;
+      /// Whether the cohesion is that at the beginning of a time step of frozen geometry, and its
+      /// value [Pa]. It acts even if the point opens.
+      bool   keeps_cohesion = false;
+      double kept_cohesion  = 0.;
       /// Dilation at the end of a time step.
       Dilation dilation;
       /// Range of this point in faces_beside.

@@ -103,8 +103,9 @@ namespace NMM
       set_initial_traction(fixed);
       if (!multipliers->are_used())
         return;
-      point.multiplier = multipliers->value(slave, fixed.s) +
-                         std::max(0., fixed.initial_pressure);
+      fixed.initial_multiplier = std::max(0., fixed.initial_pressure);
+      point.multiplier =
+        multipliers->value(slave, fixed.s) + fixed.initial_multiplier;
       fixed.stiffening = multipliers->stiffening(slave, fixed.s);
     }
 

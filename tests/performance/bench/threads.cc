@@ -107,9 +107,9 @@ namespace NMM
         return;
       out
         << "## Threads\n\nResults have the same bits on any number of threads "
-           "(`nmm --threads`). Rules and assembly run on them; cutting, "
-           "contact, stress recovery and factorizations "
-           "(`OPENBLAS_NUM_THREADS`) do not.\n\n"
+           "(`nmm --threads`). Rules, assembly and contact points run on them; "
+           "cutting, the search for candidates, stress recovery and "
+           "factorizations (`OPENBLAS_NUM_THREADS`) do not.\n\n"
            "| threads | elements | cut | rules [s] | assembly, small [s] | "
            "assembly, finite [s] |\n|---|---|---|---|---|---|\n";
       for (const Row &row : members)

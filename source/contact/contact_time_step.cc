@@ -104,10 +104,9 @@ namespace NMM
   {
     for (unsigned int q = 0; q < points.size(); ++q)
     {
-      PointData &fixed = point_data[q];
-      fixed.keeps_cohesion =
-        fixed.law != nullptr && !fixed.law->depends_on_slip();
-      if (fixed.keeps_cohesion)
+      PointData &fixed     = point_data[q];
+      fixed.keeps_cohesion = true;
+      if (fixed.law != nullptr && !fixed.law->depends_on_slip())
         fixed.kept_cohesion = fixed.law->cohesion_at(points[q].pressure).value;
     }
   }

@@ -44,7 +44,7 @@ namespace NMM
                   const double     slip)
     {
       ContactLaw::Strength strength = fixed.law->strength(pressure, slip);
-      if (fixed.keeps_cohesion)
+      if (fixed.keeps_cohesion && !fixed.law->depends_on_slip())
       {
         const ContactLaw::Response cohesion = fixed.law->cohesion_at(pressure);
         strength.value += fixed.kept_cohesion - cohesion.value;

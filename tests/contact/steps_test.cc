@@ -252,6 +252,36 @@ namespace
   }
 
 
+  // What cohesion bears at the end of a step it bears at the beginning of the next one: blocks that
+  // hang on cohesion do not creep in a relaxation.
+  TEST_F(FrozenStep, CohesionBearsShearFromStepToStep)
+  {
+    constexpr double cohesion = 1e4, length = 1.;
+    // half of what the cohesion can bear
+    constexpr double slide = 0.5 * cohesion / stiffness;
+    press(cohesion);
+    Contact     &contact = *bodies->contact;
+    const Vector end     = moved({slide, -gap - depth}, 0.);
+    (void)forces(end);
+    for (const double time : {2. * h, 3. * h})
+    {
+      contact.freeze_geometry(false);
+      (void)forces(end);
+      contact.accept();
+      contact.freeze_geometry(true);
+      contact.detect(end);
+      ContactTimeStep(contact).begin(end, time);
+      EXPECT_NEAR(std::abs(contact.report().force[0]),
+                  0.5 * cohesion * length,
+                  1e-9 * cohesion);
+      (void)forces(end);
+      EXPECT_NEAR(std::abs(contact.report().force[0]),
+                  0.5 * cohesion * length,
+                  1e-9 * cohesion);
+    }
+  }
+
+
   // With friction, and with slip that opens faces: what sticks and what slides, against
   // differences, as the tangent is and times a factor.
   TEST(ContactSteps, TangentWithFrictionAgainstDifferences)

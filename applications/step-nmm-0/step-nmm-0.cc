@@ -260,8 +260,8 @@ namespace StepNMM0
     problem.materials   = {{"steel", youngs_modulus, poissons_ratio}};
     std::vector<Tensor<1, 2>> values(covers.n_covers());
     for (unsigned int cover = 0; cover < covers.n_covers(); ++cover)
-      values[cover] =
-        Tensor<1, 2>({solution[2 * cover], solution[2 * cover + 1]});
+      values[cover] = Tensor<1, 2>({solution[NMM::unknown_of(cover, 0)],
+                                    solution[NMM::unknown_of(cover, 1)]});
     const NMM::DisplacementField field(covers, problem, std::move(values));
 
     const NMM::ErrorNorms errors =

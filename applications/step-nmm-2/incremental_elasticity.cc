@@ -161,8 +161,9 @@ namespace StepNMM2
                                       : -point.value[0] * current.normal;
       for (unsigned int i = 0; i < n_per_cell; ++i)
         for (unsigned int c = 0; c < 2; ++c)
-          cell_rhs(2 * i + c) += load_factor * point.weight *
-                                 point.weight_functions[i] * traction[c];
+          cell_rhs(NMM::unknown_of(i, c)) += load_factor * point.weight *
+                                             point.weight_functions[i] *
+                                             traction[c];
       return;
     }
 
@@ -172,13 +173,13 @@ namespace StepNMM2
     {
       const Tensor<1, 2> force = point.stress * g[i];
       for (unsigned int c = 0; c < 2; ++c)
-        cell_rhs(2 * i + c) -= weight * force[c];
+        cell_rhs(NMM::unknown_of(i, c)) -= weight * force[c];
       for (unsigned int j = 0; j < n_per_cell; ++j)
       {
         const double shear = elasticity.mu * (g[i] * g[j]);
         for (unsigned int c = 0; c < 2; ++c)
           for (unsigned int d = 0; d < 2; ++d)
-            cell_matrix(2 * i + c, 2 * j + d) +=
+            cell_matrix(NMM::unknown_of(i, c), NMM::unknown_of(j, d)) +=
               weight *
               (elasticity.lambda * g[i][c] * g[j][d] +
                elasticity.mu * g[i][d] * g[j][c] + (c == d ? shear : 0.));
@@ -215,11 +216,11 @@ namespace StepNMM2
     for (unsigned int i = 0; i < n_per_cell; ++i)
       for (unsigned int c = 0; c < 2; ++c)
       {
-        cell_rhs(2 * i + c) -=
+        cell_rhs(NMM::unknown_of(i, c)) -=
           weight * (N[i] * force[c] - traction[i][c] * gap);
         for (unsigned int j = 0; j < n_per_cell; ++j)
           for (unsigned int d = 0; d < 2; ++d)
-            cell_matrix(2 * i + c, 2 * j + d) +=
+            cell_matrix(NMM::unknown_of(i, c), NMM::unknown_of(j, d)) +=
               weight * ((c == d ? point.penalty * N[i] * N[j] : 0.) -
                         N[i] * traction[j][d][c] - traction[i][c][d] * N[j]);
       }
@@ -250,7 +251,8 @@ namespace StepNMM2
 
     std::vector<Tensor<1, 2>> increment(u.size());
     for (unsigned int k = 0; k < u.size(); ++k)
-      increment[k] = Tensor<1, 2>({solution(2 * k), solution(2 * k + 1)});
+      increment[k] = Tensor<1, 2>(
+        {solution(NMM::unknown_of(k, 0)), solution(NMM::unknown_of(k, 1))});
     for (unsigned int element = 0; element < element_to_points.size();
          ++element)
       for (QuadraturePoint &point : element_to_points[element])

@@ -29,8 +29,8 @@ namespace NMM
       std::vector<unsigned int> cover_to_body(cover_system.n_covers());
       for (unsigned int e = 0; e < mesh.n_elements(); ++e)
         for (const unsigned int k : cover_system.covers(e))
-          cover_to_body[k] = row_to_body[2 * k] = row_to_body[2 * k + 1] =
-            mesh.block(e);
+          cover_to_body[k]                = row_to_body[unknown_of(k, 0)] =
+            row_to_body[unknown_of(k, 1)] = mesh.block(e);
       covers.reinit(cover_to_body);
       rows.reinit(row_to_body);
       edges.reinit(surface->edges().size(), [&](const auto &add) {

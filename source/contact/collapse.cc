@@ -151,7 +151,8 @@ namespace NMM
         std::vector<Rigid> result(blocks.size(), Rigid{});
         for (const auto k : covers.locally_owned_covers())
         {
-          const Tensor<1, 2> force({forces(2 * k), forces(2 * k + 1)});
+          const Tensor<1, 2> force(
+            {forces(unknown_of(k, 0)), forces(unknown_of(k, 1))});
           const unsigned int block = cover_to_block[k];
           const Rigid        one =
             unit_force(blocks[block].center, covers.node(k), force);

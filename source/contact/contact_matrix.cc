@@ -95,7 +95,8 @@ namespace NMM
       if (!with_tangent || is_sparse)
         return;
       for (unsigned int i = 0; constraints->n_constraints() > 0 && i < n; ++i)
-        if (constraints->is_constrained(2 * covers[i / 2] + i % 2))
+        if (constraints->is_constrained(
+              unknown_of(covers[cover_of(i)], component_of(i))))
           for (unsigned int j = 0; j < n; ++j)
             local.matrix[n * i + j] = local.matrix[n * j + i] = 0.;
       body_matrix->add(covers, local.matrix);

@@ -168,7 +168,7 @@ namespace NMM
         const std::vector<double> &values = history.searched_displacements;
         searched_nodal.resize(values.size() / 2);
         for (unsigned int i = 0; i < values.size(); ++i)
-          searched_nodal[i / 2][i % 2] = values[i];
+          searched_nodal[cover_of(i)][component_of(i)] = values[i];
         searched_time    = history.searched_time;
         searched_reaches = history.searched_reaches;
       }

@@ -25,7 +25,7 @@ namespace NMM
       for (unsigned int i = 0; i < n_slave; ++i)
         for (unsigned int c = 0; c < 2; ++c)
         {
-          const unsigned int k = 2 * i + c;
+          const unsigned int k = unknown_of(i, c);
           N[k]                 = slave.w[i] * normal[c];
           T[k]                 = slave.w[i] * tangent[c];
           N1[k] = T1[k] = 0.;
@@ -70,10 +70,10 @@ namespace NMM
           row[k] += factor * traction.normal_distance * f.C[k];
         for (unsigned int i = 0; i < slave.n; ++i)
           for (unsigned int c = 0; c < 2; ++c)
-            row[2 * i + c] += factor * slave.w[i] * f.tangent[c];
+            row[unknown_of(i, c)] += factor * slave.w[i] * f.tangent[c];
         for (unsigned int i = 0; i < stick.n; ++i)
           for (unsigned int c = 0; c < 2; ++c)
-            row[f.n + 2 * i + c] -= factor * stick.w[i] * f.tangent[c];
+            row[f.n + unknown_of(i, c)] -= factor * stick.w[i] * f.tangent[c];
       }
     } // namespace
 

@@ -269,9 +269,10 @@ namespace NMM
     ContactSurface::Weights weights;
     surface->weights(master, t, weights);
     for (unsigned int k = 0; k < f.n; ++k)
-      pressure_change[k] = fixed.pressure_by_gap * normal[k % 2] *
-                           (k < 2 * f.n_slave ? fixed.weights.w[k / 2]
-                                              : -weights.w[k / 2 - f.n_slave]);
+      pressure_change[k] =
+        fixed.pressure_by_gap * normal[component_of(k)] *
+        (k < 2 * f.n_slave ? fixed.weights.w[cover_of(k)]
+                           : -weights.w[cover_of(k) - f.n_slave]);
 
     // Derivatives of motion . n and motion . tau in the middle of the step. There n, tau and the
     // foot change half as much as at the end.

@@ -42,22 +42,20 @@ namespace NMM
       scaled = positions;
       scaled.scale(ones);
       layout.mass->vmult(moved, scaled);
-      std::vector<double> first(2 * n, 0.);
-      auto                m = nodal_mass.begin();
-      auto                x = scaled.begin();
-      auto                w = moved.begin();
+      std::vector<Tensor<1, 2>> first(n);
+      auto                      m = nodal_mass.begin();
+      auto                      x = scaled.begin();
+      auto                      w = moved.begin();
       for (unsigned int i = 0; m != nodal_mass.end(); ++m, ++x, ++w, ++i)
       {
         const unsigned int b = (*block_of)[i];
         masses[b] += 0.5 * *m;
-        first[2 * b + i % 2] += *w;
+        first[b][component_of(i)] += *w;
         inertias[b] += *x * *w;
       }
       for (unsigned int b = 0; b < n; ++b)
         if (masses[b] > 0.)
-          inertias[b] -= (first[2 * b] * first[2 * b] +
-                          first[2 * b + 1] * first[2 * b + 1]) /
-                         masses[b];
+          inertias[b] -= first[b].norm_square() / masses[b];
     }
 
 

@@ -145,7 +145,7 @@ namespace NMM
     const dealii::IndexSet &absent = layout.absent_unknowns;
     Vector translation(layout.locally_owned, layout.communicator);
     for (const auto i : layout.locally_owned)
-      if (i % 2 == 0 && !layout.constraints->is_constrained(i) &&
+      if (component_of(i) == 0 && !layout.constraints->is_constrained(i) &&
           !(absent.size() > 0 && absent.is_element(i)))
         translation(i) = 1.;
     translation.compress(dealii::VectorOperation::insert);

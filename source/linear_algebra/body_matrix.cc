@@ -1,3 +1,4 @@
+#include <nmm/covers/unknowns.h>
 #include <nmm/linear_algebra/body_matrix.h>
 
 #include <deal.II/base/index_set.h>
@@ -98,34 +99,35 @@ namespace NMM
     const unsigned int n      = covers.size();
     const auto         end_of = [&](const unsigned int first) {
       unsigned int       last = first;
-      const unsigned int body = body_of(2 * covers[first]);
-      while (last < n && body_of(2 * covers[last]) == body)
+      const unsigned int body = body_of(unknown_of(covers[first], 0));
+      while (last < n && body_of(unknown_of(covers[last], 0)) == body)
         ++last;
       return last;
     };
     for (unsigned int i = 0, i_end; i < n; i = i_end)
     {
       i_end                  = end_of(i);
-      const unsigned int row = body_of(2 * covers[i]);
+      const unsigned int row = body_of(unknown_of(covers[i], 0));
       if (!is_active(row))
         continue;
       const unsigned int height = size(row);
       for (unsigned int j = 0, j_end; j < n; j = j_end)
       {
         j_end                     = end_of(j);
-        const unsigned int column = body_of(2 * covers[j]);
+        const unsigned int column = body_of(unknown_of(covers[j], 0));
         double            *to     = coupling(row, column);
         for (unsigned int a = i; a < i_end; ++a)
         {
           const double      *from = matrix + std::size_t(4) * n * a;
-          const unsigned int r    = 2 * covers[a] - begin(row);
+          const unsigned int r    = unknown_of(covers[a], 0) - begin(row);
           for (unsigned int b = j; b < j_end; ++b)
           {
-            double *at = to + height * (2 * covers[b] - begin(column)) + r;
-            at[0] += from[2 * b];
-            at[1] += from[2 * n + 2 * b];
-            at[height] += from[2 * b + 1];
-            at[height + 1] += from[2 * n + 2 * b + 1];
+            double *at =
+              to + height * (unknown_of(covers[b], 0) - begin(column)) + r;
+            at[0] += from[unknown_of(b, 0)];
+            at[1] += from[2 * n + unknown_of(b, 0)];
+            at[height] += from[unknown_of(b, 1)];
+            at[height + 1] += from[2 * n + unknown_of(b, 1)];
           }
         }
       }

@@ -105,7 +105,7 @@ namespace NMM
         if (std::abs(vector[i]) > best)
         {
           best  = std::abs(vector[i]);
-          cover = i / 2;
+          cover = cover_of(i);
         }
       const auto all =
         dealii::Utilities::MPI::all_gather(communicator,
@@ -145,7 +145,7 @@ namespace NMM
       AssertThrow(diagonal > 0.,
                   NumericalFailure("a diagonal entry of the matrix is " +
                                      std::to_string(diagonal),
-                                   to_string(covers.node(i / 2)),
+                                   to_string(covers.node(cover_of(i))),
                                    "look for a part without stiffness or mass "
                                    "there"));
       scaling[i] = 1. / std::sqrt(diagonal);

@@ -41,7 +41,7 @@ namespace NMM
           const unsigned int n = pattern.row_length(cover);
           lengths.insert(lengths.end(), 2, 2 * n);
           for (const unsigned int c : {0, 1})
-            unknowns.push_back(2 * cover + c);
+            unknowns.push_back(unknown_of(cover, c));
           for (unsigned int j = 0; j < n; ++j)
             if (const auto column = pattern.column_number(cover, j);
                 !owned.is_element(column))
@@ -49,7 +49,7 @@ namespace NMM
         }
         for (const unsigned int cover : of_other_ranks)
           for (const unsigned int c : {0, 1})
-            unknowns.push_back(2 * cover + c);
+            unknowns.push_back(unknown_of(cover, c));
         const Epetra_Map column_map(
           -1, unknowns.size(), unknowns.data(), 0, row_map.Comm());
 
@@ -66,7 +66,7 @@ namespace NMM
           for (unsigned int j = 0; j < pattern.row_length(cover); ++j)
           {
             const int column = column_map.LID(
-              static_cast<int>(2 * pattern.column_number(cover, j)));
+              static_cast<int>(unknown_of(pattern.column_number(cover, j), 0)));
             columns.insert(columns.end(), {column, column + 1});
           }
           for (unsigned int c = 0; c < 2; ++c, ++row)
@@ -90,7 +90,7 @@ namespace NMM
       , n_rows(covers.locally_owned_covers().n_elements())
     {
       for (const auto &line : constraints.get_lines())
-        is_constrained[line.index / 2] = true;
+        is_constrained[cover_of(line.index)] = true;
       const auto [first, last] = covers.locally_owned_elements();
       for (unsigned int e = first; e < last; ++e)
         couple(covers.covers(e));
@@ -129,9 +129,9 @@ namespace NMM
         else
           for (unsigned int c = 0; c < 2; ++c)
             if (const auto *entries =
-                  constraints->get_constraint_entries(2 * k + c))
+                  constraints->get_constraint_entries(unknown_of(k, c)))
               for (const auto &entry : *entries)
-                expanded.push_back(entry.first / 2);
+                expanded.push_back(cover_of(entry.first));
             else
               expanded.push_back(k);
       std::sort(expanded.begin(), expanded.end());
@@ -183,9 +183,10 @@ namespace NMM
       cover_to_column.assign(covers->n_covers(), invalid_index);
       for (unsigned int k = 0; k < covers->n_covers(); ++k)
       {
-        const int column = graph.ColMap().LID(static_cast<int>(2 * k));
+        const int column =
+          graph.ColMap().LID(static_cast<int>(unknown_of(k, 0)));
         if (column >= 0)
-          cover_to_column[k] = column / 2;
+          cover_to_column[k] = cover_of(column);
       }
     }
 
@@ -201,10 +202,10 @@ namespace NMM
         return;
       }
       for_each_row([&](const unsigned int row) {
-        std::fill_n(rhs_values + 2 * row, 2, 0.);
+        std::fill_n(rhs_values + unknown_of(row, 0), 2, 0.);
         if (with_matrix)
-          std::fill(rows.values + rows.begins[2 * row],
-                    rows.values + rows.begins[2 * row + 2],
+          std::fill(rows.values + rows.begins[unknown_of(row, 0)],
+                    rows.values + rows.begins[unknown_of(row + 1, 0)],
                     0.);
       });
     }
@@ -248,17 +249,19 @@ namespace NMM
       term_begins.assign(1, 0);
       for (unsigned int i = 0; i < n; ++i)
       {
-        const unsigned int k       = of_covers[i / 2];
-        const unsigned int unknown = 2 * k + i % 2;
+        const unsigned int k       = of_covers[cover_of(i)];
+        const unsigned int unknown = unknown_of(k, component_of(i));
         if (const auto *entries = constraints->get_constraint_entries(unknown))
         {
           for (const auto &[j, weight] : *entries)
-            terms.emplace_back(2 * position_of(j / 2) + j % 2, weight);
+            terms.emplace_back(unknown_of(position_of(cover_of(j)),
+                                          component_of(j)),
+                               weight);
           if (has_inhomogeneities)
             local_inhomogeneities[i] = constraints->get_inhomogeneity(unknown);
         }
         else
-          terms.emplace_back(2 * position_of(k) + i % 2, 1.);
+          terms.emplace_back(unknown_of(position_of(k), component_of(i)), 1.);
         term_begins.push_back(terms.size());
       }
       if (m == 0)
@@ -327,24 +330,24 @@ namespace NMM
         }
         if (!is_active(row))
           continue;
-        rhs_values[2 * row] += values[2 * i];
-        rhs_values[2 * row + 1] += values[2 * i + 1];
+        rhs_values[unknown_of(row, 0)] += values[unknown_of(i, 0)];
+        rhs_values[unknown_of(row, 1)] += values[unknown_of(i, 1)];
         if (matrix_values == nullptr)
           continue;
         const double *from    = matrix_values + 4 * n * i;
-        const int    *entries = rows.columns + rows.begins[2 * row];
-        double       *first   = rows.values + rows.begins[2 * row];
-        double       *second  = rows.values + rows.begins[2 * row + 1];
+        const int    *entries = rows.columns + rows.begins[unknown_of(row, 0)];
+        double       *first   = rows.values + rows.begins[unknown_of(row, 0)];
+        double       *second  = rows.values + rows.begins[unknown_of(row, 1)];
         std::size_t   p       = 0;
         for (unsigned int b = 0; b < n; ++b)
         {
-          while (entries[p] != static_cast<int>(2 * columns[b]))
+          while (entries[p] != static_cast<int>(unknown_of(columns[b], 0)))
           {
             p += 2;
-            Assert(entries + p < rows.columns + rows.begins[2 * row + 1],
+            Assert(entries + p < rows.columns + rows.begins[unknown_of(row, 1)],
                    dealii::ExcInternalError());
           }
-          const double *entry = from + 2 * order[b];
+          const double *entry = from + unknown_of(order[b], 0);
           first[p] += entry[0];
           first[p + 1] += entry[1];
           second[p] += entry[2 * n];
@@ -365,13 +368,13 @@ namespace NMM
       global_columns.clear();
       for (const unsigned int k : of_covers)
         for (unsigned int c = 0; c < 2; ++c)
-          global_columns.push_back(2 * k + c);
-      rhs->add(2, &global_columns[2 * i], values + 2 * i);
+          global_columns.push_back(unknown_of(k, c));
+      rhs->add(2, &global_columns[unknown_of(i, 0)], values + unknown_of(i, 0));
       for (unsigned int c = 0; c < 2 && matrix_values != nullptr; ++c)
-        matrix->add(global_columns[2 * i + c],
+        matrix->add(global_columns[unknown_of(i, c)],
                     n,
                     global_columns.data(),
-                    matrix_values + n * (2 * i + c),
+                    matrix_values + n * unknown_of(i, c),
                     /* elide_zero_values = */ false);
     }
 
@@ -405,7 +408,8 @@ namespace NMM
       std::array<double, 2>     sum_and_count = {{0., 0.}};
       std::vector<unsigned int> empty;
       for_each_row([&](const unsigned int row) {
-        for (const unsigned int unknown : {2 * row, 2 * row + 1})
+        for (const unsigned int unknown :
+             {unknown_of(row, 0), unknown_of(row, 1)})
           if (const double entry = std::abs(diagonal(unknown)))
           {
             sum_and_count[0] += entry;

@@ -74,15 +74,16 @@ namespace NMM
       {
         int     n, n_second, *indices;
         double *first, *second;
-        matrix.ExtractMyRowView(2 * r, n, first, indices);
-        matrix.ExtractMyRowView(2 * r + 1, n_second, second);
+        matrix.ExtractMyRowView(unknown_of(r, 0), n, first, indices);
+        matrix.ExtractMyRowView(unknown_of(r, 1), n_second, second);
         AssertDimension(n, n_second);
         diagonal.push_back(invalid_index);
         for (int i = 0; i < n; i += 2)
         {
-          Assert(indices[i] % 2 == 0 && indices[i + 1] == indices[i] + 1,
+          Assert(component_of(indices[i]) == 0 &&
+                   indices[i + 1] == indices[i] + 1,
                  dealii::ExcInternalError());
-          const unsigned int column = indices[i] / 2;
+          const unsigned int column = cover_of(indices[i]);
           if (column == r)
             diagonal.back() = columns.size();
           columns.push_back(column);
@@ -112,10 +113,13 @@ namespace NMM
       {
         for (unsigned int i = owned_end[r]; i < row_begin[r + 1]; ++i)
           for (unsigned int c = 0; c < 4; ++c)
-            addition[2 * r + c / 2] += 0.5F * std::abs(values[4 * i + c]);
+            addition[unknown_of(r, c / 2)] +=
+              0.5F * std::abs(values[4 * i + c]);
         const float *a        = values.data() + 4 * diagonal[r];
-        const double extra[2] = {addition.empty() ? 0. : addition[2 * r],
-                                 addition.empty() ? 0. : addition[2 * r + 1]};
+        const double extra[2] = {addition.empty() ? 0.
+                                                  : addition[unknown_of(r, 0)],
+                                 addition.empty() ? 0.
+                                                  : addition[unknown_of(r, 1)]};
         const double a00 = a[0] + extra[0], a11 = a[3] + extra[1],
                      a01         = 0.5 * (double(a[1]) + a[2]),
                      determinant = a00 * a11 - a01 * a01;
@@ -151,11 +155,11 @@ namespace NMM
           bool is_free = true;
           for (unsigned int c = 0; c < 2; ++c)
             if (const auto *entries =
-                  constraints.get_constraint_entries(2 * cover + c))
+                  constraints.get_constraint_entries(unknown_of(cover, c)))
             {
               is_free = false;
               for (const auto &entry : *entries)
-                add(entry.first / 2);
+                add(cover_of(entry.first));
             }
           if (is_free)
             add(cover);
@@ -189,11 +193,13 @@ namespace NMM
             ++j;
           if (j < rows.size() && rows[j] == columns[k])
             for (unsigned int c = 0; c < 4; ++c)
-              local(2 * i + c / 2, 2 * j + c % 2) = values[4 * k + c];
+              local(unknown_of(i, c / 2), unknown_of(j, c % 2)) =
+                values[4 * k + c];
         }
         if (!addition.empty())
           for (unsigned int c = 0; c < 2; ++c)
-            local(2 * i + c, 2 * i + c) += addition[2 * rows[i] + c];
+            local(unknown_of(i, c), unknown_of(i, c)) +=
+              addition[unknown_of(rows[i], c)];
       }
       const Eigen::VectorXd scaling =
         local.diagonal().cwiseSqrt().cwiseInverse();
@@ -265,47 +271,49 @@ namespace NMM
       {
         Sum sum;
         for (unsigned int i = row_begin[r]; i < diagonal[r]; ++i)
-          sum.add(values.data() + 4 * i, x.data() + 2 * columns[i]);
-        const float  s0 = rhs[2 * r] - sum[0], s1 = rhs[2 * r + 1] - sum[1];
-        const float *d = inverse_diagonal.data() + 4 * r;
-        x[2 * r]       = d[0] * s0 + d[1] * s1;
-        x[2 * r + 1]   = d[2] * s0 + d[3] * s1;
+          sum.add(values.data() + 4 * i, x.data() + unknown_of(columns[i], 0));
+        const float s0      = rhs[unknown_of(r, 0)] - sum[0],
+                    s1      = rhs[unknown_of(r, 1)] - sum[1];
+        const float *d      = inverse_diagonal.data() + 4 * r;
+        x[unknown_of(r, 0)] = d[0] * s0 + d[1] * s1;
+        x[unknown_of(r, 1)] = d[2] * s0 + d[3] * s1;
       }
       // b - (L + D + U) x = -U x
       for (unsigned int r = 0; r < n_rows; ++r)
       {
         Sum sum;
         for (unsigned int i = diagonal[r] + 1; i < owned_end[r]; ++i)
-          sum.add(values.data() + 4 * i, x.data() + 2 * columns[i]);
-        residual[2 * r]     = -sum[0];
-        residual[2 * r + 1] = -sum[1];
+          sum.add(values.data() + 4 * i, x.data() + unknown_of(columns[i], 0));
+        residual[unknown_of(r, 0)] = -sum[0];
+        residual[unknown_of(r, 1)] = -sum[1];
       }
       for (const Patch &patch : patches)
       {
         const unsigned int *rows = patch_rows.data() + patch.begin;
         const unsigned int  n    = patch.end - patch.begin;
         for (unsigned int i = 0; i < 2 * n; ++i)
-          patch_residual[i] = residual[2 * rows[i / 2] + i % 2];
+          patch_residual[i] =
+            residual[unknown_of(rows[cover_of(i)], component_of(i))];
         solve_patch(patch, patch_residual.data(), patch_solution.data());
         for (unsigned int k = 0; k < n; ++k)
         {
           const unsigned int r  = rows[k];
-          const float        y0 = patch_solution[2 * k],
-                      y1        = patch_solution[2 * k + 1];
-          x[2 * r] += y0;
-          x[2 * r + 1] += y1;
+          const float        y0 = patch_solution[unknown_of(k, 0)],
+                      y1        = patch_solution[unknown_of(k, 1)];
+          x[unknown_of(r, 0)] += y0;
+          x[unknown_of(r, 1)] += y1;
           // the matrix is symmetric: the column is read from the row
           for (unsigned int i = row_begin[r]; i < owned_end[r]; ++i)
           {
             const float *a = values.data() + 4 * i;
-            float       *s = residual.data() + 2 * columns[i];
+            float       *s = residual.data() + unknown_of(columns[i], 0);
             s[0] -= a[0] * y0 + a[2] * y1;
             s[1] -= a[1] * y0 + a[3] * y1;
           }
           if (!addition.empty())
           {
-            residual[2 * r] -= addition[2 * r] * y0;
-            residual[2 * r + 1] -= addition[2 * r + 1] * y1;
+            residual[unknown_of(r, 0)] -= addition[unknown_of(r, 0)] * y0;
+            residual[unknown_of(r, 1)] -= addition[unknown_of(r, 1)] * y1;
           }
         }
       }
@@ -319,9 +327,11 @@ namespace NMM
         {
           Sum sum;
           for (unsigned int i = owned_end[r]; i < row_begin[r + 1]; ++i)
-            sum.add(values.data() + 4 * i, x.data() + 2 * columns[i]);
+            sum.add(values.data() + 4 * i,
+                    x.data() + unknown_of(columns[i], 0));
           for (unsigned int c = 0; c < 2; ++c)
-            residual[2 * r + c] += addition[2 * r + c] * x[2 * r + c] - sum[c];
+            residual[unknown_of(r, c)] +=
+              addition[unknown_of(r, c)] * x[unknown_of(r, c)] - sum[c];
         }
     }
 
@@ -334,13 +344,13 @@ namespace NMM
     {
       Sum sum;
       for (unsigned int i = row_begin[row]; i < row_begin[row + 1]; ++i)
-        sum.add(values.data() + 4 * i, x.data() + 2 * columns[i]);
+        sum.add(values.data() + 4 * i, x.data() + unknown_of(columns[i], 0));
       for (unsigned int c = 0; c < 2; ++c)
       {
-        residual[c] = rhs[2 * row + c] - sum[c];
+        residual[c] = rhs[unknown_of(row, c)] - sum[c];
         if (!addition.empty())
-          residual[c] -=
-            addition[2 * row + c] * (x[2 * row + c] - start[2 * row + c]);
+          residual[c] -= addition[unknown_of(row, c)] *
+                         (x[unknown_of(row, c)] - start[unknown_of(row, c)]);
       }
     }
 
@@ -358,18 +368,22 @@ namespace NMM
         const unsigned int *rows = patch_rows.data() + patch->begin;
         const unsigned int  n    = patch->end - patch->begin;
         for (unsigned int k = 0; k < n; ++k)
-          residual_of_row(rows[k], rhs, x, patch_residual.data() + 2 * k);
+          residual_of_row(rows[k],
+                          rhs,
+                          x,
+                          patch_residual.data() + unknown_of(k, 0));
         solve_patch(*patch, patch_residual.data(), patch_solution.data());
         for (unsigned int i = 0; i < 2 * n; ++i)
-          x[2 * rows[i / 2] + i % 2] += patch_solution[i];
+          x[unknown_of(rows[cover_of(i)], component_of(i))] +=
+            patch_solution[i];
       }
       for (unsigned int r = n_rows; r-- > 0;)
       {
         float residual[2];
         residual_of_row(r, rhs, x, residual);
         const float *d = inverse_diagonal.data() + 4 * r;
-        x[2 * r] += d[0] * residual[0] + d[1] * residual[1];
-        x[2 * r + 1] += d[2] * residual[0] + d[3] * residual[1];
+        x[unknown_of(r, 0)] += d[0] * residual[0] + d[1] * residual[1];
+        x[unknown_of(r, 1)] += d[2] * residual[0] + d[3] * residual[1];
       }
     }
   } // namespace internal

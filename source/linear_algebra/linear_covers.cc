@@ -57,8 +57,8 @@ namespace NMM
         n_owned > 0 ? covers.locally_owned_covers().nth_index_in_set(0) : 0;
       const auto ends    = find_ends(covers, first_owned, n_owned);
       const auto is_free = [&](const unsigned int cover) {
-        return !constraints.is_constrained(2 * cover) &&
-               !constraints.is_constrained(2 * cover + 1);
+        return !constraints.is_constrained(unknown_of(cover, 0)) &&
+               !constraints.is_constrained(unknown_of(cover, 1));
       };
       for (unsigned int k = 0; k < n_owned; ++k)
         if (ends[k][0] == first_owned + k && ends[k][1] == first_owned + k &&
@@ -75,7 +75,7 @@ namespace NMM
       for (unsigned int i = 0; i < unknown_to_cover.size(); ++i)
         for (unsigned int c = 0; c < 2; ++c)
           owned[2 * (unknown_to_cover[i] - first_owned) + c] =
-            linear_map.GID(2 * i + c);
+            linear_map.GID(unknown_of(i, c));
       all.Import(owned,
                  Epetra_Import(matrix.ColMap(), matrix.RowMap()),
                  Insert);
@@ -91,7 +91,7 @@ namespace NMM
             if (ends[k][j] == invalid_index)
               continue;
             const int column =
-              matrix.ColMap().LID(static_cast<int>(2 * ends[k][j] + c));
+              matrix.ColMap().LID(static_cast<int>(unknown_of(ends[k][j], c)));
             if (column >= 0 && all[column] >= 0)
               matrix_P->InsertGlobalValues(row, 1, &half, &all[column]);
           }

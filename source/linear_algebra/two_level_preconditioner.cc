@@ -27,7 +27,7 @@ namespace NMM
       {
         const dealii::Tensor<1, 2> d = (cover_system.node(k) - center) / size;
         for (unsigned int c = 0; c < 2; ++c, ++i)
-          if (!constraints.is_constrained(2 * k + c))
+          if (!constraints.is_constrained(unknown_of(k, c)))
           {
             modes[c * n + i] = 1.;
             modes[2 * n + i] = c == 0 ? -d[1] : d[0];

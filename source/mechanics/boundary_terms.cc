@@ -94,7 +94,7 @@ namespace NMM
       };
       for (unsigned int k = 0; k < 2 * n_per_cell; ++k)
         for (unsigned int c = 0; c < 2; ++c)
-          result.unit_tractions[c](2 * k + c) += point.weight * mean(k);
+          result.unit_tractions[c](unknown_of(k, c)) += point.weight * mean(k);
       for (unsigned int j = 0; j < functions.displacements.size(); ++j)
       {
         const dealii::Tensor<1, 2> &F = functions.displacements[j],
@@ -107,11 +107,11 @@ namespace NMM
           {
             const double flux =
               sign * (traction[k][0][c] * F[0] + traction[k][1][c] * F[1]);
-            result.couplings[j](2 * k + c) +=
+            result.couplings[j](unknown_of(k, c)) +=
               point.weight *
               (mean(k) * t[c] - flux + point.penalty * jump * F[c]);
             if (is_inner)
-              result.works[j](2 * k + c) += point.weight * jump * t[c];
+              result.works[j](unknown_of(k, c)) += point.weight * jump * t[c];
           }
         }
         for (unsigned int k = 0; k < functions.displacements.size(); ++k)

@@ -167,8 +167,8 @@ namespace NMM
         double sum = 0.;
         for (unsigned int i = 0; i < former.size(); ++i)
           if (origin.weights[i] != 0.)
-            sum += origin.weights[i] * values(2 * former[i] + c);
-        result(2 * cover + c) = sum;
+            sum += origin.weights[i] * values(unknown_of(former[i], c));
+        result(unknown_of(cover, c)) = sum;
       }
     }
     result.compress(dealii::VectorOperation::insert);

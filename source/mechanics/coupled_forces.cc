@@ -36,8 +36,9 @@ namespace NMM
       {
         bool result = unknowns.size() % 2 == 0;
         for (unsigned int i = 0; i < unknowns.size(); ++i)
-          result = result && unknowns[i] % 2 == i % 2 &&
-                   unknowns[i] / 2 == unknowns[i / 2 * 2] / 2 &&
+          result = result && component_of(unknowns[i]) == component_of(i) &&
+                   cover_of(unknowns[i]) ==
+                     cover_of(unknowns[unknown_of(cover_of(i), 0)]) &&
                    !(layout.locally_owned.is_element(unknowns[i]) &&
                      layout.constraints->is_constrained(unknowns[i]));
         return result;
@@ -161,7 +162,7 @@ namespace NMM
                           const double                          *values) {
         covers.clear();
         for (unsigned int i = 0; i < n; i += 2)
-          covers.push_back(first[i] / 2);
+          covers.push_back(cover_of(first[i]));
         bodies.add({covers.data(), covers.size()}, values);
       });
     }

@@ -18,7 +18,7 @@ namespace NMM
         dealii::Tensor<1, 2> sum;
         auto                 i = forces.local_range().first;
         for (const double force : forces)
-          sum[i++ % 2] += force;
+          sum[component_of(i++)] += force;
         return dealii::Utilities::MPI::sum(sum, forces.get_mpi_communicator());
       }
     } // namespace
@@ -91,7 +91,7 @@ namespace NMM
             return;
           const auto pair = covers_of_pair(*covers, e, edge.neighbor);
           for (unsigned int i = 0; i < 4 * n_per_cell; ++i)
-            unknowns[i] = 2 * pair[i / 2] + i % 2;
+            unknowns[i] = unknown_of(pair[cover_of(i)], component_of(i));
           for (unsigned int j = 0; j < m; ++j)
           {
             constraints->distribute_local_to_global(local.couplings[j],

@@ -109,7 +109,7 @@ namespace NMM
     {
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int c = 0; c < 2; ++c)
-          rhs[2 * i + c] +=
+          rhs[unknown_of(i, c)] +=
             P[c][0] * gradients[i][0] + P[c][1] * gradients[i][1];
     }
 
@@ -134,11 +134,13 @@ namespace NMM
           double M[4];
           for (unsigned int b = 0; b < 4; ++b)
             M[b] = g0 * A[2 * c][b] + g1 * A[2 * c + 1][b];
-          double *row = matrix + stride * (2 * i + c);
+          double *row = matrix + stride * unknown_of(i, c);
           for (unsigned int j = 0; j < n; ++j)
           {
-            row[2 * j] += M[0] * gradients[j][0] + M[1] * gradients[j][1];
-            row[2 * j + 1] += M[2] * gradients[j][0] + M[3] * gradients[j][1];
+            row[unknown_of(j, 0)] +=
+              M[0] * gradients[j][0] + M[1] * gradients[j][1];
+            row[unknown_of(j, 1)] +=
+              M[2] * gradients[j][0] + M[3] * gradients[j][1];
           }
         }
       }

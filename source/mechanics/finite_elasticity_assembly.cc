@@ -416,7 +416,8 @@ namespace NMM
       const unsigned int n = 2 * local.n_covers;
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < n; ++j)
-          local.rhs[i] += local.matrix[n * i + j] * u.values[j / 2][j % 2];
+          local.rhs[i] +=
+            local.matrix[n * i + j] * u.values[cover_of(j)][component_of(j)];
     }
     assembler.add(to, local.with_matrix ? local.matrix : nullptr, local.rhs);
   }

@@ -41,7 +41,7 @@ namespace NMM
       {
         const unsigned int n = 2 * local.n_covers;
         for (unsigned int r = 2; r < n; ++r)
-          for (unsigned int c = 0; c < r / 2 * 2; ++c)
+          for (unsigned int c = 0; c < unknown_of(cover_of(r), 0); ++c)
             local.matrix[n * r + c] = local.matrix[n * c + r];
       }
 
@@ -68,10 +68,10 @@ namespace NMM
           double *row1 = row0 + 2 * n;
           for (unsigned int j = i; j < n; ++j)
           {
-            row0[2 * j] += M[0][0] * g[j][0] + M[0][1] * g[j][1];
-            row0[2 * j + 1] += M[0][2] * g[j][0] + M[0][3] * g[j][1];
-            row1[2 * j] += M[1][0] * g[j][0] + M[1][1] * g[j][1];
-            row1[2 * j + 1] += M[1][2] * g[j][0] + M[1][3] * g[j][1];
+            row0[unknown_of(j, 0)] += M[0][0] * g[j][0] + M[0][1] * g[j][1];
+            row0[unknown_of(j, 1)] += M[0][2] * g[j][0] + M[0][3] * g[j][1];
+            row1[unknown_of(j, 0)] += M[1][0] * g[j][0] + M[1][1] * g[j][1];
+            row1[unknown_of(j, 1)] += M[1][2] * g[j][0] + M[1][3] * g[j][1];
           }
         }
       }
@@ -209,15 +209,15 @@ namespace NMM
       for (unsigned int i = 0; i < n; ++i)
       {
         const double p = pressure * point.values[i];
-        local.rhs[2 * i] += p * t[1];
-        local.rhs[2 * i + 1] -= p * t[0];
+        local.rhs[unknown_of(i, 0)] += p * t[1];
+        local.rhs[unknown_of(i, 1)] -= p * t[0];
         if (!local.with_matrix)
           continue;
         double *row0 = local.row(i, 0), *row1 = local.row(i, 1);
         for (unsigned int j = 0; j < n; ++j)
         {
-          row0[2 * j + 1] += p * point.tangential[j];
-          row1[2 * j] -= p * point.tangential[j];
+          row0[unknown_of(j, 1)] += p * point.tangential[j];
+          row1[unknown_of(j, 0)] -= p * point.tangential[j];
         }
       }
     }

@@ -88,9 +88,9 @@ namespace NMM
               const double trace = g[i][0] * g[j][0] + g[i][1] * g[j][1];
               for (unsigned int k = 0; k < 2; ++k)
                 for (unsigned int l = 0; l < 2; ++l)
-                  system.row(i, k)[2 * j + l] += lambda * g[i][k] * g[j][l] +
-                                                 mu * g[i][l] * g[j][k] +
-                                                 (k == l ? mu * trace : 0.);
+                  system.row(i, k)[unknown_of(j, l)] +=
+                    lambda * g[i][k] * g[j][l] + mu * g[i][l] * g[j][k] +
+                    (k == l ? mu * trace : 0.);
             }
         });
     }
@@ -116,7 +116,8 @@ namespace NMM
                        for (unsigned int i = 0; i < system.n_covers; ++i)
                          for (unsigned int j = 0; j < system.n_covers; ++j)
                            for (unsigned int k = 0; k < 2; ++k)
-                             system.row(i, k)[2 * j + k] += m * w[i] * w[j];
+                             system.row(i, k)[unknown_of(j, k)] +=
+                               m * w[i] * w[j];
                      });
     }
   } // namespace internal

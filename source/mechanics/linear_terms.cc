@@ -63,16 +63,16 @@ namespace NMM
                        k01 = lambda * a01 + mu * a10,
                        k10 = lambda * a10 + mu * a01,
                        k11 = (lambda + 2. * mu) * a11 + mu * a00;
-          double *row0     = system.row(i, 0) + 2 * j;
-          double *row1     = system.row(i, 1) + 2 * j;
+          double *row0     = system.row(i, 0) + unknown_of(j, 0);
+          double *row1     = system.row(i, 1) + unknown_of(j, 0);
           row0[0] += k00;
           row0[1] += k01;
           row1[0] += k10;
           row1[1] += k11;
           if (i != j)
           {
-            double *mirror0 = system.row(j, 0) + 2 * i;
-            double *mirror1 = system.row(j, 1) + 2 * i;
+            double *mirror0 = system.row(j, 0) + unknown_of(i, 0);
+            double *mirror1 = system.row(j, 1) + unknown_of(i, 0);
             mirror0[0] += k00;
             mirror0[1] += k10;
             mirror1[0] += k01;
@@ -150,7 +150,7 @@ namespace NMM
         const double *g = integrals->gradients[i];
         const double g0 = t00 * g[0] + t01 * g[1], g1 = t10 * g[0] + t11 * g[1];
         for (unsigned int c = 0; c < 2; ++c)
-          system.rhs[2 * i + c] +=
+          system.rhs[unknown_of(i, c)] +=
             det * (stress[c][0] * g0 + stress[c][1] * g1);
       }
     }

@@ -47,7 +47,7 @@ namespace NMM
       double *
       row(const unsigned int i, const unsigned int c)
       {
-        return matrix + (2 * i + c) * 2 * n_covers;
+        return matrix + unknown_of(i, c) * 2 * n_covers;
       }
     };
 

@@ -83,7 +83,7 @@ namespace NMM
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < n; ++j)
           for (unsigned int c = 0; c < 2; ++c)
-            local.row(i, c)[2 * j + c] = density * mass->products[i][j];
+            local.row(i, c)[unknown_of(j, c)] = density * mass->products[i][j];
       assembler.add(covers.covers(e), local.matrix, local.rhs);
     }
     if (!pairs.empty())

@@ -13,7 +13,7 @@ namespace NMM
   {
     using Index = dealii::types::global_dof_index;
 
-    /// Derivatives of a vector with respect to both unknowns of a cover, by the first of them.
+    /// Derivatives of a vector with respect to both unknowns of a cover, by the cover.
     using Weights = std::map<Index, dealii::Tensor<2, 2>>;
 
 
@@ -22,10 +22,10 @@ namespace NMM
     {
       vector.unknowns.clear();
       vector.weights.clear();
-      for (const auto &[unknown, of_cover] : weights)
+      for (const auto &[cover, of_cover] : weights)
         for (unsigned int c = 0; c < 2; ++c)
         {
-          vector.unknowns.push_back(unknown + c);
+          vector.unknowns.push_back(unknown_of(cover, c));
           vector.weights.push_back(of_cover[c]);
         }
     }
@@ -36,8 +36,8 @@ namespace NMM
     {
       Weights weights;
       for (unsigned int i = 0; i < vector.unknowns.size(); ++i)
-        weights[vector.unknowns[i] / 2 * 2][vector.unknowns[i] % 2] +=
-          vector.weights[i];
+        weights[cover_of(vector.unknowns[i])]
+               [component_of(vector.unknowns[i])] += vector.weights[i];
       return weights;
     }
 
@@ -64,10 +64,10 @@ namespace NMM
       covers.get_dof_indices(element, 2, unknowns);
       for (unsigned int i = 0; i < unknowns.size(); ++i)
       {
-        const unsigned int c      = i % 2;
-        const double       weight = values[i / 2];
+        const unsigned int c      = component_of(i);
+        const double       weight = values[cover_of(i)];
         const auto         add = [&](const Index unknown, const double value) {
-          weights[unknown / 2 * 2][unknown % 2][c] += value;
+          weights[cover_of(unknown)][component_of(unknown)][c] += value;
         };
         if (!constraints.is_constrained(unknowns[i]))
         {
@@ -122,8 +122,8 @@ namespace NMM
   {
     constant -= other.constant;
     Weights sum = weights_of(*this);
-    for (const auto &[unknown, of_cover] : weights_of(other))
-      sum[unknown] -= of_cover;
+    for (const auto &[cover, of_cover] : weights_of(other))
+      sum[cover] -= of_cover;
     set_weights(sum, *this);
     blocks.insert(blocks.end(), other.blocks.begin(), other.blocks.end());
     std::sort(blocks.begin(), blocks.end());
@@ -162,18 +162,19 @@ namespace NMM
   {
     // a rank may know unknowns of others, which they add themselves
     const dealii::IndexSet owned = u.locally_owned_elements();
-    std::vector<double>    sums(2 * vectors.size(), 0.);
-    for (unsigned int v = 0; v < vectors.size(); ++v)
+    const unsigned int     n     = vectors.size();
+    std::vector<double>    sums(2 * n, 0.);
+    for (unsigned int v = 0; v < n; ++v)
       for (unsigned int i = 0; i < vectors[v].unknowns.size(); ++i)
         if (const Index unknown = vectors[v].unknowns[i];
             owned.is_element(unknown))
           for (unsigned int c = 0; c < 2; ++c)
-            sums[2 * v + c] += vectors[v].weights[i][c] * u(unknown);
+            sums[c * n + v] += vectors[v].weights[i][c] * u(unknown);
     dealii::Utilities::MPI::sum(sums, u.get_mpi_communicator(), sums);
     std::vector<dealii::Tensor<1, 2>> values;
-    for (unsigned int v = 0; v < vectors.size(); ++v)
+    for (unsigned int v = 0; v < n; ++v)
       values.push_back(vectors[v].constant +
-                       dealii::Tensor<1, 2>({sums[2 * v], sums[2 * v + 1]}));
+                       dealii::Tensor<1, 2>({sums[v], sums[n + v]}));
     return values;
   }
 } // namespace NMM

@@ -87,7 +87,7 @@ namespace NMM
       local.energy += point.weight * (f * d - 0.5 * penalty * d.norm_square());
       for (unsigned int k = 0; k < local.n_covers; ++k)
         for (unsigned int c = 0; c < 2; ++c)
-          local.rhs[2 * k + c] += point.weight * point.jump[k] * f[c];
+          local.rhs[unknown_of(k, c)] += point.weight * point.jump[k] * f[c];
       for (unsigned int s = 0; s < point.n_sides; ++s)
         add_stress(n_per_cell,
                    point.sides[s].gradients,
@@ -136,7 +136,7 @@ namespace NMM
           double      *row   = local.row(k, c);
           for (unsigned int j = 0; j < n; ++j)
             for (unsigned int e = 0; e < 2; ++e)
-              row[2 * j + e] +=
+              row[unknown_of(j, e)] +=
                 (stiff * B[c][e] - point.weight * conjugate[k][c][e]) *
                   point.jump[j] -
                 jump * traction[j][c][e];

@@ -30,7 +30,7 @@ namespace NMM
       }
       for (const auto cover : covers.locally_relevant_covers())
         for (unsigned int c = 0; c < 2; ++c)
-          nodal[cover][c] = vector(2 * cover + c);
+          nodal[cover][c] = vector(unknown_of(cover, c));
     }
 
 
@@ -50,7 +50,7 @@ namespace NMM
       const auto values = vector.begin();
       for (const unsigned int k : active.chosen())
         for (unsigned int c = 0; c < 2; ++c)
-          nodal[k][c] = values[2 * k + c];
+          nodal[k][c] = values[unknown_of(k, c)];
     }
   } // namespace internal
 } // namespace NMM

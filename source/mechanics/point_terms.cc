@@ -73,10 +73,10 @@ namespace NMM
         local.energy += 0.5 * spring * distance * distance;
         for (unsigned int i = 0; i < local.n_covers; ++i)
         {
-          local.rhs[2 * i + c] += spring * w[i] * distance;
+          local.rhs[unknown_of(i, c)] += spring * w[i] * distance;
           if (local.with_matrix)
             for (unsigned int j = 0; j < local.n_covers; ++j)
-              local.row(i, c)[2 * j + c] += spring * w[i] * w[j];
+              local.row(i, c)[unknown_of(j, c)] += spring * w[i] * w[j];
         }
       }
     }

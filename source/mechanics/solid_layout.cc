@@ -22,7 +22,7 @@ namespace NMM
   {
     for (const auto k : covers->locally_owned_covers())
       for (unsigned int c = 0; c < 2; ++c)
-        positions(2 * k + c) = covers->node(k)[c];
+        positions(unknown_of(k, c)) = covers->node(k)[c];
     positions.compress(dealii::VectorOperation::insert);
     layout.absent_unknowns.set_size(positions.size());
     set_blocks();
@@ -40,7 +40,7 @@ namespace NMM
     block_of.resize(2 * covers->n_covers());
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
       for (const unsigned int k : covers->covers(e))
-        block_of[2 * k] = block_of[2 * k + 1] = mesh.block(e);
+        block_of[unknown_of(k, 0)] = block_of[unknown_of(k, 1)] = mesh.block(e);
   }
 
 
@@ -54,7 +54,8 @@ namespace NMM
         if (is_absent[mesh.block(e)])
           for (const unsigned int k : covers->covers(e))
             if (covers->locally_owned_covers().is_element(k))
-              of_absent.insert(of_absent.end(), {2 * k, 2 * k + 1});
+              of_absent.insert(of_absent.end(),
+                               {unknown_of(k, 0), unknown_of(k, 1)});
     std::sort(of_absent.begin(), of_absent.end());
     of_absent.erase(std::unique(of_absent.begin(), of_absent.end()),
                     of_absent.end());

@@ -96,9 +96,9 @@ namespace NMM
     {
       Vector translation(layout().locally_owned, layout().communicator);
       for (const auto k : elastic->cover_system().locally_owned_covers())
-        if (!layout().constraints->is_constrained(2 * k + c) &&
-            !layout().absent_unknowns.is_element(2 * k + c))
-          translation(2 * k + c) = 1.;
+        if (!layout().constraints->is_constrained(unknown_of(k, c)) &&
+            !layout().absent_unknowns.is_element(unknown_of(k, c)))
+          translation(unknown_of(k, c)) = 1.;
       translation.compress(dealii::VectorOperation::insert);
       mass_of_translation[c].reinit(translation);
       layout().mass->vmult(mass_of_translation[c], translation);
@@ -373,7 +373,7 @@ namespace NMM
           const dealii::Tensor<1, 2> v =
             velocity(covers.node(k), mesh.block(e));
           for (unsigned int c = 0; c < 2; ++c)
-            result(2 * k + c) = v[c];
+            result(unknown_of(k, c)) = v[c];
         }
     result.compress(dealii::VectorOperation::insert);
     constraints.distribute(result);

@@ -170,7 +170,7 @@ namespace NMM
              dealii::Utilities::MPI::all_gather(covers.communicator(), owned))
           for (const double value : part)
           {
-            values[i / 2][i % 2] = value;
+            values[cover_of(i)][component_of(i)] = value;
             ++i;
           }
       }

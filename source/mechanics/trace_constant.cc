@@ -164,9 +164,9 @@ namespace NMM
       // all covers on which a constrained cover depends belong to the root
       std::vector<unsigned int> needed;
       for (const unsigned int k : covers->covers(element))
-        if (needed.empty() && constraints->is_constrained(2 * k))
+        if (needed.empty() && constraints->is_constrained(unknown_of(k, 0)))
           for (const auto &entry : *constraints->get_constraint_entries(2 * k))
-            needed.push_back(entry.first / 2);
+            needed.push_back(cover_of(entry.first));
       if (needed.empty())
         return invalid_index;
 
@@ -204,12 +204,12 @@ namespace NMM
       for (const unsigned int k : covers->covers(element))
         if (!is_of_root(k))
         {
-          const unsigned int unknown = 2 * k;
+          const unsigned int unknown = unknown_of(k, 0);
           if (!constraints->is_constrained(unknown))
             return false;
           for (const auto &entry :
                *constraints->get_constraint_entries(unknown))
-            if (!is_of_root(entry.first / 2))
+            if (!is_of_root(cover_of(entry.first)))
               return false;
         }
       return true;

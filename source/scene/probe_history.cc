@@ -71,8 +71,8 @@ namespace NMM
         for (const Term &term : terms[i])
           for (unsigned int c = 0; c < 2; ++c)
           {
-            values[4 * i + c] += term.weight * u(2 * term.cover + c);
-            values[4 * i + 2 + c] += term.weight * v(2 * term.cover + c);
+            values[4 * i + c] += term.weight * u(unknown_of(term.cover, c));
+            values[4 * i + 2 + c] += term.weight * v(unknown_of(term.cover, c));
           }
       std::vector<double> sums(values.size());
       dealii::Utilities::MPI::sum(values, communicator, sums);

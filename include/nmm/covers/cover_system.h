@@ -2,6 +2,7 @@
 #define nmm_covers_cover_system_h
 
 #include <nmm/covers/manifold_mesh.h>
+#include <nmm/covers/unknowns.h>
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/index_set.h>

@@ -433,9 +433,9 @@ namespace StepNMM4
     const Vector         u = find_equilibrium();
     NMM::ContactTerm     touch(model->layout(), *contact, {{1, 0.}});
     NMM::MechanicalModel forces(model->layout(), {model.get(), &touch});
-    NMM::TimeIntegrator  integrator(forces,
-                                   NMM::TimeScheme::energy_momentum(),
-                                   {/* mass = */ 0., parameters.damping});
+    model->damp({/* mass = */ 0., parameters.damping},
+                /* is_conserving = */ true);
+    NMM::TimeIntegrator integrator(forces, NMM::TimeScheme::energy_momentum());
     integrator.initialize(u,
                           Vector(model->layout().locally_owned,
                                  MPI_COMM_WORLD));

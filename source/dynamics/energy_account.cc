@@ -81,27 +81,18 @@ namespace NMM
 
 
     void
-    EnergyAccount::add_step(const SchemeStep &step,
-                            const StepWork   &work,
-                            StepMatrix       &matrix)
+    EnergyAccount::add_step(const SchemeStep &step, const StepWork &work)
     {
       EnergySums &totals = state->sums;
       totals.external_work += work.loads;
       totals.external_work += work.supports;
+      totals.dissipated += work.dissipated;
+      const double share = step.closing_share_in_work();
+      if (share == 0.)
+        return;
       Vector change(step.u);
       change -= state->u;
-      const double share = step.closing_share_in_work();
-      if (share > 0.)
-        totals.fracture -= share * (state->closing.forces * change);
-      if (matrix.has_damping())
-      {
-        Vector damping(momentum);
-        damping = 0.;
-        matrix.add_damping(1. / step.length, change, damping);
-        model->layout().constraints->set_zero(damping);
-        totals.dissipated += damping * change;
-      }
-      totals.dissipated += work.dissipated;
+      totals.fracture -= share * (state->closing.forces * change);
     }
   } // namespace internal
 } // namespace NMM

@@ -3,7 +3,7 @@
 
 #include <nmm/dynamics/time_integrator.h>
 
-#include <dynamics/step_matrix.h>
+#include <dynamics/scheme_step.h>
 
 namespace NMM
 {
@@ -44,11 +44,9 @@ namespace NMM
       void
       add(double EnergySums::*sum, double energy);
 
-      /// Add the work of the step from the state, of the terms, closing forces and damping.
+      /// Add the work of the step from the state, of the terms and of closing forces.
       void
-      add_step(const SchemeStep &step,
-               const StepWork   &work,
-               StepMatrix       &matrix);
+      add_step(const SchemeStep &step, const StepWork &work);
 
     private:
       void

@@ -8,12 +8,11 @@ namespace NMM
 {
   namespace internal
   {
-    StepEquations::StepEquations(MechanicalModel       &model,
-                                 const DynamicState    &begin,
-                                 const TimeScheme      &scheme,
-                                 const RayleighDamping &damping)
+    StepEquations::StepEquations(MechanicalModel    &model,
+                                 const DynamicState &begin,
+                                 const TimeScheme   &scheme)
       : step(scheme, begin, model.layout())
-      , matrix(model, damping, scheme.is_conserving)
+      , matrix(model.layout())
       , model(&model)
       , begin(&begin)
     {
@@ -48,9 +47,10 @@ namespace NMM
     StepEquations::Vector &
     StepEquations::static_forces(const bool with_damping)
     {
-      forces = *model->forces().residual;
-      if (with_damping)
-        matrix.add_damping(1., begin->v, forces);
+      const AssembledForces &sum = model->forces();
+      forces                     = *sum.residual;
+      if (with_damping && sum.damping != nullptr)
+        matrix.add_product(*sum.damping, begin->v, forces);
       subtract_closing(begin->closing.share(begin->time));
       model->layout().constraints->set_zero(forces);
       return forces;
@@ -142,7 +142,7 @@ namespace NMM
       const auto f = forces.begin();
       rows.for_each(n, [&](const unsigned int i) { f[i] = 0.; });
       step.mix_accelerations(rows, scratch);
-      matrix.add_mass(1., scratch, forces);
+      matrix.add_product(*model->layout().mass, scratch, forces);
       const auto r      = std::as_const(*sum.residual).begin();
       double     square = 0.;
       rows.for_each(n, [&](const unsigned int i) {
@@ -160,8 +160,11 @@ namespace NMM
                                       rounding / (step.scheme.beta * h * h) *
                                         mass_of_displacement);
       result.force_rounding     = sum.rounding;
-      step.mix_velocities(rows, scratch);
-      matrix.add_damping(1., scratch, forces);
+      if (sum.damping != nullptr)
+      {
+        step.mix_velocities(rows, scratch);
+        matrix.add_product(*sum.damping, scratch, forces);
+      }
       subtract_closing(step.closing_share());
       if (model->layout().constraints->n_constraints() > 0)
         model->layout().constraints->set_zero(forces);

@@ -16,10 +16,9 @@ namespace NMM
     class StepEquations : public NonlinearSystem
     {
     public:
-      StepEquations(MechanicalModel       &model,
-                    const DynamicState    &begin,
-                    const TimeScheme      &scheme,
-                    const RayleighDamping &damping);
+      StepEquations(MechanicalModel    &model,
+                    const DynamicState &begin,
+                    const TimeScheme   &scheme);
 
       /// Begin a step of @p h [s], and predict the displacements at its end.
       void

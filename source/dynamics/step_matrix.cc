@@ -1,5 +1,3 @@
-#include <nmm/base/exceptions.h>
-
 #include <dynamics/step_matrix.h>
 #include <linear_algebra/matrix_rows.h>
 #include <linear_algebra/matrix_sum.h>
@@ -8,39 +6,20 @@ namespace NMM
 {
   namespace internal
   {
-    StepMatrix::StepMatrix(MechanicalModel       &model,
-                           const RayleighDamping &damping_in,
-                           const bool             is_conserving)
-      : layout(&model.layout())
-      , damping(damping_in)
+    StepMatrix::StepMatrix(const ModelLayout &layout)
+      : layout(&layout)
+      , product(layout.locally_owned, layout.communicator)
     {
-      AssertThrow(damping.mass >= 0. && damping.stiffness >= 0.,
-                  InputError("A coefficient of Rayleigh damping is negative",
-                             "",
-                             "choose both at least 0"));
-      product.reinit(layout->locally_owned, layout->communicator);
-      const Matrix *const stiffness =
-        model.damp_by_stiffness(damping.stiffness, is_conserving);
-      if (stiffness == nullptr)
-        damping.stiffness = 0.;
-      else
-      {
-        stiffness_at_rest.reinit(*stiffness);
-        stiffness_at_rest.copy_from(*stiffness);
-      }
     }
 
 
     void
-    StepMatrix::add_product(const double  factor,
-                            const Matrix &A,
-                            const Vector &in,
-                            Vector       &out)
+    StepMatrix::add_product(const Matrix &A, const Vector &in, Vector &out)
     {
       if (rows.all())
       {
         A.vmult(product, in);
-        out.add(factor, product);
+        out += product;
         return;
       }
       // rows are selected on one rank only
@@ -61,20 +40,8 @@ namespace NMM
         else
           for (int i = begin; i < end; ++i)
             sum += entries.values[i] * x[columns[entries.columns[i]]];
-        y[row] += factor * sum;
+        y[row] += sum;
       }
-    }
-
-
-    void
-    StepMatrix::add_damping(const double  factor,
-                            const Vector &x,
-                            Vector       &result)
-    {
-      if (damping.mass > 0.)
-        add_product(factor * damping.mass, *layout->mass, x, result);
-      if (damping.stiffness > 0.)
-        add_product(factor * damping.stiffness, stiffness_at_rest, x, result);
     }
 
 
@@ -85,9 +52,9 @@ namespace NMM
                    m    = step.mass_factor();
       in_place          = forces.scaled_tangent;
       const auto add_to = [&](const auto &add) {
-        add(m + c * damping.mass, *layout->mass);
-        if (damping.stiffness > 0. && c != 0.)
-          add(c * damping.stiffness, stiffness_at_rest);
+        add(m, *layout->mass);
+        if (forces.damping != nullptr && c != 0.)
+          add(c, *forces.damping);
       };
       if (forces.body_tangent != nullptr)
       {

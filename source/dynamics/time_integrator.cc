@@ -61,11 +61,10 @@ namespace NMM
   {
     Data(MechanicalModel        &model,
          const TimeScheme       &scheme,
-         const RayleighDamping  &damping,
          const NewtonParameters &newton)
       : model(&model)
       , newton(newton)
-      , equations(model, state, scheme, damping)
+      , equations(model, state, scheme)
       , account(model, state)
     {
       set_absent_blocks();
@@ -343,9 +342,8 @@ namespace NMM
 
   TimeIntegrator::TimeIntegrator(MechanicalModel        &model,
                                  const TimeScheme       &scheme,
-                                 const RayleighDamping  &damping,
                                  const NewtonParameters &newton)
-    : data(std::make_unique<Data>(with_masses(model), scheme, damping, newton))
+    : data(std::make_unique<Data>(with_masses(model), scheme, newton))
   {
     initialize();
   }
@@ -433,7 +431,7 @@ namespace NMM
       constraints.distribute(*vector);
     restore(cut);
     Vector &forces = d.equations.static_forces();
-    d.equations.matrix.add_mass(1., cut.a, forces);
+    d.equations.matrix.add_product(*d.model->layout().mass, cut.a, forces);
     constraints.set_zero(forces);
     if (d.equations.sleeping)
       d.equations.sleeping->set_zero(forces);
@@ -517,7 +515,7 @@ namespace NMM
                                   d.state.time,
                                   step.end_time(),
                                   step.scheme.is_conserving));
-    d.account.add_step(step, work, d.equations.matrix);
+    d.account.add_step(step, work);
     d.state.time = step.end_time();
     ++d.state.step;
     d.state.u.swap(step.u);

@@ -22,14 +22,14 @@ namespace NMM
   }
 
 
-  const FiniteSolid::Matrix *
-  FiniteSolid::damp_by_stiffness(const double coefficient,
-                                 const bool   is_conserving)
+  void
+  FiniteSolid::damp(const RayleighDamping &damping, const bool is_conserving)
   {
-    if (!is_conserving)
-      return SolidTerm::damp_by_stiffness(coefficient, is_conserving);
-    damping = coefficient;
-    return nullptr;
+    RayleighDamping by_matrix = damping;
+    if (is_conserving)
+      by_matrix.stiffness = 0.;
+    SolidTerm::damp(by_matrix, is_conserving);
+    damping_between = damping.stiffness - by_matrix.stiffness;
   }
 
 
@@ -59,7 +59,9 @@ namespace NMM
                                 trial.tangent,
                                 &first,
                                 &last,
-                                damping > 0. ? damping / (t_1 - t_0) : 0.);
+                                damping_between > 0.
+                                  ? damping_between / (t_1 - t_0)
+                                  : 0.);
     dissipated_between = elastic->energies().dissipated;
     return state;
   }
@@ -77,6 +79,7 @@ namespace NMM
                    1.,
                    sum);
     forces.residual             = &sum;
+    forces.damping              = damping();
     forces.scale                = elastic->force_scale();
     forces.strain_energy        = elastic->energies().strain;
     forces.energy_of_conditions = elastic->energies().conditions;
@@ -103,12 +106,17 @@ namespace NMM
   }
 
 
-  /// Without conserving forces, nothing is dissipated.
   StepWork
   FiniteSolid::commit(const Trial &step)
   {
-    StepWork work   = SolidTerm::commit(step);
-    work.dissipated = std::exchange(dissipated_between, 0.);
+    AssertThrow(
+      damping_between == 0. || step.begin == nullptr || step.is_conserving,
+      InputError("The damping is that of conserving forces, and this step "
+                 "has others",
+                 "the damping by stiffness of a solid",
+                 "call SolidTerm::damp() as the time scheme needs it"));
+    StepWork work = SolidTerm::commit(step);
+    work.dissipated += std::exchange(dissipated_between, 0.);
     return work;
   }
 

@@ -1,4 +1,3 @@
-#include <nmm/base/exceptions.h>
 #include <nmm/mechanics/mechanical_model.h>
 
 #include <algorithm>
@@ -9,17 +8,6 @@
 
 namespace NMM
 {
-  const ForceTerm::Matrix *
-  ForceTerm::damp_by_stiffness(const double coefficient, const bool)
-  {
-    AssertThrow(coefficient == 0.,
-                InputError("These forces cannot be damped by their stiffness",
-                           "",
-                           "choose 0 for that coefficient of damping"));
-    return nullptr;
-  }
-
-
   void
   BlockTerms::set_active_blocks(const std::vector<bool> &is_active,
                                 const std::vector<bool> &is_held)
@@ -154,14 +142,6 @@ namespace NMM
       work.dissipated += of_term.dissipated;
     }
     return work;
-  }
-
-
-  const MechanicalModel::Matrix *
-  MechanicalModel::damp_by_stiffness(const double coefficient,
-                                     const bool   is_conserving)
-  {
-    return terms.front()->damp_by_stiffness(coefficient, is_conserving);
   }
 
 

@@ -104,8 +104,8 @@ namespace NMM
     if (!inelastic)
       return work;
     inelastic->accept(*step.end);
-    work.dissipated = step.begin == nullptr ? inelastic->totals().dissipated
-                                            : dissipated_in(step);
+    work.dissipated += step.begin == nullptr ? inelastic->totals().dissipated
+                                             : dissipated_in(step);
     return work;
   }
 
@@ -201,6 +201,7 @@ namespace NMM
         add_energies(*trial.end, amplitudes, sum);
     }
     sum.residual            = &forces;
+    sum.damping             = damping();
     sum.scale               = trial.with_energies || trial.is_conserving
                                 ? std::hypot(with_loads.scale, elastic_scale)
                                 : scale_at_rest();

@@ -221,13 +221,31 @@ namespace NMM
   }
 
 
-  /// Supports are left out, because those that move would be held back by a damping that acts on the
-  /// velocity.
-  const SolidTerm::Matrix *
-  SolidTerm::damp_by_stiffness(const double coefficient, bool)
+  void
+  SolidTerm::damp(const RayleighDamping &damping, bool)
   {
-    if (coefficient == 0.)
-      return nullptr;
+    AssertThrow(damping.mass >= 0. && damping.stiffness >= 0.,
+                InputError("A coefficient of Rayleigh damping is negative",
+                           "",
+                           "choose both at least 0"));
+    AssertThrow(damping.mass == 0. || layout().mass != nullptr,
+                InputError("A solid without masses is damped by them",
+                           "",
+                           "give the mass matrix"));
+    damping_matrix.reset();
+    if (damping.mass == 0. && damping.stiffness == 0.)
+      return;
+    damping_matrix   = std::make_unique<Matrix>();
+    const auto begin = [this](const double factor, const Matrix &matrix) {
+      damping_matrix->reinit(matrix);
+      damping_matrix->copy_from(matrix);
+      *damping_matrix *= factor;
+    };
+    if (damping.stiffness == 0.)
+    {
+      begin(damping.mass, *layout().mass);
+      return;
+    }
     ++n_changes;
     const ElasticityProblem &problem = elastic->elasticity_problem();
     LoadAmplitudes           free    = amplitudes_at(0.);
@@ -235,7 +253,9 @@ namespace NMM
     free.released_fixed_points.assign(problem.fixed_points.size(), true);
     set_amplitudes(free);
     elastic->assemble_at_rest(0.);
-    return &elastic->tangent();
+    begin(damping.stiffness, elastic->tangent());
+    if (damping.mass > 0.)
+      damping_matrix->add(damping.mass, *layout().mass);
   }
 
 
@@ -250,18 +270,23 @@ namespace NMM
     Vector change(begin), loads(begin);
     begin  = *step.begin;
     change = *step.end;
+    change -= begin;
+    if (damping_matrix)
+    {
+      damping_matrix->vmult(loads, change);
+      layout().constraints->set_zero(loads);
+      work.dissipated = loads * change / (t_1 - t_0);
+    }
     if (step.is_conserving)
     {
-      Vector mean(change), middle(zero);
-      mean.sadd(0.5, 0.5, begin);
-      middle = mean;
-      change -= begin;
+      Vector middle(zero);
+      begin.add(0.5, change);
+      middle = begin;
       external_forces(middle, 0.5 * (t_0 + t_1), loads);
       work.loads    = loads * change;
       work.supports = work_of_supports_between(step, middle);
       return work;
     }
-    change -= begin;
     if (!last_loads_at || *last_loads_at != t_0)
       external_forces(*step.begin, t_0, last_loads);
     external_forces(*step.end, t_1, loads);

@@ -136,8 +136,9 @@ namespace NMM
       mechanics = std::make_unique<MechanicalModel>(model->layout(), terms);
       damping =
         scene.make_damping(*physical_mesh, problem, contact && has_friction());
+      model->damp(damping, scheme.is_conserving);
       integrator = std::make_unique<TimeIntegrator>(
-        *mechanics, scheme, damping, motion_newton_parameters(scene, progress));
+        *mechanics, scheme, motion_newton_parameters(scene, progress));
       make_leaving();
       if (parameters.time.sleep.speed > 0.)
         integrator->let_blocks_sleep(parameters.time.sleep);

@@ -103,7 +103,6 @@ namespace NMM
       MechanicalModel mechanics(model->layout(), force_terms);
       TimeIntegrator  integrator(mechanics,
                                 scheme,
-                                {},
                                 motion_newton_parameters(scene, progress));
       if (parameters.safety_factor.start == Start::settled)
       {

@@ -248,7 +248,6 @@ namespace NMM
         time.time_scheme(Analysis::relaxation,
                          parameters.model.kinematics,
                          input.contact != nullptr),
-        RayleighDamping(),
         motion_newton_parameters(input.scene, input.progress));
     }
 

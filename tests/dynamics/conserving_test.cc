@@ -130,7 +130,7 @@ namespace
       {
         Body         body = free_square(law, state, 20.);
         const double h    = 0.1;
-        body.mechanics->damp_by_stiffness(0.05, /* is_conserving = */ true);
+        body.solid->damp({0., 0.05}, /* is_conserving = */ true);
         std::mt19937                           generator(7);
         std::uniform_real_distribution<double> random(-0.15, 0.15);
         const auto                             field = [&] {
@@ -183,9 +183,9 @@ namespace
   {
     Body body =
       free_square(material_law("linear"), PlaneState::plane_strain, 1e10);
-    TimeIntegrator integrator(*body.mechanics,
-                              TimeScheme::energy_momentum(),
-                              {/* mass = */ 0., /* stiffness = */ 1e-2});
+    body.solid->damp({/* mass = */ 0., /* stiffness = */ 1e-2},
+                     /* is_conserving = */ true);
+    TimeIntegrator integrator(*body.mechanics, TimeScheme::energy_momentum());
     RigidVelocity  spin;
     spin.angular_velocity = 1.;
     integrator.initialize(body.zero(), body.velocity(spin));
@@ -205,10 +205,10 @@ namespace
     for (const std::shared_ptr<const MaterialLaw> &law :
          {material_law("St. Venant-Kirchhoff"), material_law("neo-Hookean")})
     {
-      Body           body = free_square(law, PlaneState::plane_strain, 20.);
-      TimeIntegrator integrator(*body.mechanics,
-                                TimeScheme::energy_momentum(),
-                                {/* mass = */ 0., /* stiffness = */ 0.05});
+      Body body = free_square(law, PlaneState::plane_strain, 20.);
+      body.solid->damp({/* mass = */ 0., /* stiffness = */ 0.05},
+                       /* is_conserving = */ true);
+      TimeIntegrator integrator(*body.mechanics, TimeScheme::energy_momentum());
       integrator.initialize(body.zero(), body.velocity([](const Point<2> &x) {
         Tensor<1, 2> v;
         v[0] = 0.3 - x[1] + 0.6 * x[0];
@@ -250,9 +250,9 @@ namespace
         free_square(material_law("linear"), PlaneState::plane_strain, 20.);
       if (!is_finite)
         body.make_small();
-      TimeIntegrator integrator(*body.mechanics,
-                                TimeScheme::energy_momentum(),
-                                {/* mass = */ 0., /* stiffness = */ 0.02});
+      body.solid->damp({/* mass = */ 0., /* stiffness = */ 0.02},
+                       /* is_conserving = */ true);
+      TimeIntegrator integrator(*body.mechanics, TimeScheme::energy_momentum());
       integrator.initialize(body.zero(), body.velocity([](const Point<2> &x) {
         return 1e-6 * Tensor<1, 2>({x[0] + x[1] * x[1], -0.3 * x[0]});
       }));

@@ -172,7 +172,10 @@ namespace NMM
     class Oscillators : private ForceTerm, public MechanicalModel
     {
     public:
-      Oscillators(const double k_0, const double k_1, const double m = 1.)
+      Oscillators(const double           k_0,
+                  const double           k_1,
+                  const double           m        = 1.,
+                  const RayleighDamping &rayleigh = {})
         : MechanicalModel(unknowns, {this})
         , owned(2)
       {
@@ -180,15 +183,17 @@ namespace NMM
         dealii::DynamicSparsityPattern pattern(2, 2);
         pattern.add(0, 0);
         pattern.add(1, 1);
-        for (Matrix *matrix : {&mass_matrix, &stiffness})
+        for (Matrix *matrix : {&mass_matrix, &stiffness, &damping})
           matrix->reinit(owned, owned, pattern, MPI_COMM_SELF);
         for (unsigned int i = 0; i < 2; ++i)
         {
           mass_matrix.set(i, i, m);
           stiffness.set(i, i, i == 0 ? k_0 : k_1);
         }
-        mass_matrix.compress(dealii::VectorOperation::insert);
-        stiffness.compress(dealii::VectorOperation::insert);
+        for (Matrix *matrix : {&mass_matrix, &stiffness})
+          matrix->compress(dealii::VectorOperation::insert);
+        damping.add(rayleigh.mass, mass_matrix);
+        damping.add(rayleigh.stiffness, stiffness);
         none.close();
         for (Vector *vector : {&positions, &forces, &displacements})
           vector->reinit(owned, MPI_COMM_SELF);
@@ -207,12 +212,6 @@ namespace NMM
       using Vector = ForceTerm::Vector;
       using Matrix = ForceTerm::Matrix;
 
-      const Matrix *
-      damp_by_stiffness(double, bool) override
-      {
-        return &stiffness;
-      }
-
       ForceProperties
       properties() const override
       {
@@ -228,14 +227,26 @@ namespace NMM
         stiffness.vmult(forces, displacements);
         sum.residual      = &forces;
         sum.tangent       = &stiffness;
+        sum.damping       = &damping;
         sum.scale         = 1.;
         sum.strain_energy = 0.5 * (displacements * forces);
         return Deformation::admissible;
       }
 
+      StepWork
+      commit(const Trial &step) override
+      {
+        Vector change(*step.end);
+        change -= *step.begin;
+        damping.vmult(forces, change);
+        StepWork work;
+        work.dissipated = forces * change / (step.end_time - step.begin_time);
+        return work;
+      }
+
       dealii::IndexSet                  owned;
       ModelLayout                       unknowns;
-      Matrix                            mass_matrix, stiffness;
+      Matrix                            mass_matrix, stiffness, damping;
       dealii::AffineConstraints<double> none;
       Vector                            positions, forces, displacements;
     };

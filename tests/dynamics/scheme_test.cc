@@ -95,8 +95,8 @@ namespace
   {
     // xi = (alpha / omega + beta omega) / 2 = 0.05 + 0.02
     const double   omega = 2., alpha = 0.2, beta = 0.02;
-    Oscillators    model(omega * omega, 1.);
-    TimeIntegrator integrator(model, trapezoidal, {alpha, beta});
+    Oscillators    model(omega * omega, 1., 1., {alpha, beta});
+    TimeIntegrator integrator(model, trapezoidal);
     Vector         u(model.layout().locally_owned, MPI_COMM_SELF), v(u);
     u(0) = 1.;
     integrator.initialize(u, v);

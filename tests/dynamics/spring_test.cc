@@ -562,7 +562,6 @@ namespace
     newton.solves_groups_separately = solves_groups_separately;
     TimeIntegrator integrator(*three.model,
                               TimeScheme::energy_momentum(),
-                              {},
                               newton);
     RigidVelocity  spin;
     spin.angular_velocity = 8.;

@@ -143,10 +143,7 @@ namespace
     body.make_finite();
     NewtonParameters newton = TimeIntegrator::default_newton_parameters();
     newton.max_iterations   = 3;
-    TimeIntegrator integrator(*body.mechanics,
-                              TimeScheme::newmark(),
-                              {},
-                              newton);
+    TimeIntegrator integrator(*body.mechanics, TimeScheme::newmark(), newton);
     unsigned int   n_cuts = 0, n_lost = 0;
     StepControl(steps(0.2)).run(integrator, 0.4, [&](const StepRecord &r) {
       n_cuts += r.n_cuts;

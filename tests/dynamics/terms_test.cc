@@ -179,12 +179,47 @@ namespace
   }
 
 
-  // Forces whose stiffness is not known must not be left undamped in silence.
-  TEST(Terms, WithoutStiffnessAreNotDamped)
+  // The velocity of a translation falls by (1 - alpha h / 2) / (1 + alpha h / 2) in a step, and
+  // damping by stiffness does not resist it.
+  TEST(Terms, TheSolidIsDampedMPI)
   {
-    PulledSquare    square(false);
-    MechanicalModel pull(square.body.solid->layout(), {square.one.get()});
-    EXPECT_THROW(TimeIntegrator(pull, TimeScheme::newmark(), {0., 0.1}),
-                 InputError);
+    constexpr double alpha = 2., h = 0.05, v = 3.;
+    for (const bool is_finite : {false, true})
+      for (const TimeScheme &scheme :
+           {TimeScheme::newmark(), TimeScheme::energy_momentum()})
+      {
+        Body body =
+          box({0., 0.}, {1., 1.}, 0.7, material("rock", 1e4, 0.2, 2.));
+        if (is_finite)
+          body.make_finite();
+        else
+          body.make_small();
+        body.solid->damp({alpha, 0.1}, scheme.is_conserving);
+        TimeIntegrator integrator(*body.mechanics, scheme);
+        RigidVelocity  velocity;
+        velocity.translation = Tensor<1, 2>({0.6 * v, -0.8 * v});
+        integrator.initialize(body.zero(), body.velocity(velocity));
+        for (unsigned int k = 0; k < 10; ++k)
+          step(integrator, h);
+        const double end =
+          v * std::pow((1. - 0.5 * alpha * h) / (1. + 0.5 * alpha * h), 10);
+        // rounding of ten solutions, each of which starts from the last one
+        constexpr double tolerance = 1e-9;
+        const Account   &account   = integrator.account();
+        EXPECT_NEAR(account.linear_momentum.norm(), 2. * end, tolerance);
+        EXPECT_NEAR(account.dissipated, v * v - end * end, tolerance);
+        EXPECT_NEAR(account.balance, 0., tolerance);
+      }
+  }
+
+
+  TEST(Terms, DampingSuitsTheScheme)
+  {
+    Body body = box({0., 0.}, {1., 1.}, 0.7, material("rock", 1e4, 0.2, 2.));
+    body.make_finite();
+    EXPECT_THROW(body.solid->damp({0., -0.1}, false), InputError);
+    body.solid->damp({0., 0.1}, /* is_conserving = */ true);
+    TimeIntegrator integrator(*body.mechanics, TimeScheme::newmark());
+    EXPECT_THROW(step(integrator, 0.05), InputError);
   }
 } // namespace

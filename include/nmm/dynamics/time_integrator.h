@@ -245,13 +245,12 @@ namespace NMM
     default_newton_parameters();
 
     /// The state is that of initialize() without arguments.
-    /// @throws InputError for coefficients of the scheme or of the damping that are out of range, and for
-    /// a model without masses.
+    /// @throws InputError for coefficients of the scheme that are out of range, and for a model without
+    /// masses.
     TimeIntegrator(
       MechanicalModel        &model,
       const TimeScheme       &scheme,
-      const RayleighDamping  &damping = {},
-      const NewtonParameters &newton  = default_newton_parameters());
+      const NewtonParameters &newton = default_newton_parameters());
     ~TimeIntegrator();
 
     /**

@@ -63,17 +63,6 @@ namespace NMM
     check() const;
   };
 
-
-  /// Coefficients of Rayleigh damping, C = mass M + stiffness K(u = 0), see
-  /// ForceTerm::damp_by_stiffness(). K(u = 0) does not rotate with a body. In conserving
-  /// steps of `finite` kinematics the damping does.
-  struct RayleighDamping
-  {
-    /// Coefficient of the mass matrix, not negative [1/s].
-    double mass = 0.;
-    /// Coefficient of the stiffness matrix, not negative [s].
-    double stiffness = 0.;
-  };
 } // namespace NMM
 
 #endif

@@ -200,6 +200,9 @@ namespace NMM
     /// @}
     /// Where terms with couplings add forces and tangent; null: no term has couplings.
     ForceSink *sink = nullptr;
+    /// C [kg/(m s)], whose pattern lies within that of the tangent: the caller adds C times the
+    /// velocity to the forces. Its dissipation is a part of StepWork. Null: there is none.
+    const dealii::TrilinosWrappers::SparseMatrix *damping = nullptr;
 
     /// K = dr/du of the last assembly with a tangent [Pa].
     const dealii::TrilinosWrappers::SparseMatrix *tangent = nullptr;
@@ -240,9 +243,9 @@ namespace NMM
    * A term that remembers nothing from step to step needs only assemble() and properties(), and
    * couplings() if it uses the sink. All functions are collective.
    *
-   * Terms get no velocities: C is Rayleigh damping, which TimeIntegrator adds. A force that depends
-   * on the rate uses (end - begin) / (end_time - begin_time) of a conserving step; other trials have
-   * no rate, and it exerts no force in them.
+   * Terms get no velocities: C is AssembledForces::damping. Another force that depends on the rate
+   * uses (end - begin) / (end_time - begin_time) of a conserving step; other trials have no rate, and
+   * it exerts no force in them.
    *
    * How to write one: derive a class from this one. Forces that do not depend on u are added to
    * AssembledForces::residual. A force that depends on the unknowns of a few covers, of whichever
@@ -350,18 +353,6 @@ namespace NMM
     set_presence(const Presence & /*presence*/)
     {
     }
-
-    /**
-     * Let there be stiffness-proportional damping with the @p coefficient [s]. Only the solid is
-     * asked, and only its term overrides this. If its conserving forces contain the damping from now
-     * on, and its commit() returns the energy that it dissipates, it returns null. Otherwise it
-     * returns the stiffness of the solid at u = 0, without loads and without supports, which would be
-     * held back where they move [Pa]: the caller adds the damping, which then does not rotate with a
-     * body. Overwrites the tangent.
-     * @throws InputError for a term that cannot be damped, unless the coefficient is 0.
-     */
-    virtual const Matrix *
-    damp_by_stiffness(double coefficient, bool is_conserving);
 
     /// @{
     /// Save and restore all data besides u that a continuation needs; the same on all ranks. The

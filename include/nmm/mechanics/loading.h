@@ -48,6 +48,16 @@ namespace NMM
   };
 
 
+  /// Coefficients of Rayleigh damping, C = mass M + stiffness K(u = 0), see SolidTerm::damp().
+  struct RayleighDamping
+  {
+    /// Coefficient of the mass matrix, not negative [1/s].
+    double mass = 0.;
+    /// Coefficient of the stiffness matrix, not negative [s].
+    double stiffness = 0.;
+  };
+
+
   /// Loads and prescribed displacements that are those of @p problem, multiplied by the amplitudes
   /// @p full and by the time. This is the loading of a solid at rest, whose time is the load factor.
   Loading

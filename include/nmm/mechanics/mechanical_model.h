@@ -89,9 +89,6 @@ namespace NMM
 
     StepWork
     commit(const Trial &step);
-
-    const Matrix *
-    damp_by_stiffness(double coefficient, bool is_conserving);
     /// @}
 
     /// The sum of the last assembly.

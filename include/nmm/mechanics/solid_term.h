@@ -34,11 +34,17 @@ namespace NMM
     void
     set_presence(const Presence &presence) override;
 
-    /// In finite kinematics conserving forces contain the damping.
-    const Matrix *
-    damp_by_stiffness(double coefficient, bool is_conserving) override;
+    /**
+     * From now on let forces be damped as @p damping says. K(u = 0) is the stiffness without loads
+     * and without supports, which would be held back where they move. It does not rotate with a
+     * body. In finite kinematics conserving forces do (FiniteSolid) if @p is_conserving, and all
+     * trials of steps must be so then.
+     * @throws InputError for a negative coefficient.
+     */
+    virtual void
+    damp(const RayleighDamping &damping, bool is_conserving);
 
-    /// Work of loads and of supports.
+    /// Work of loads and of supports, and of damping.
     StepWork
     commit(const Trial &step) override;
 
@@ -135,6 +141,13 @@ namespace NMM
       return n_passed + (loading.releases.size() + 1) * n_changes;
     }
 
+    /// C of damp(); null: it is 0.
+    const Matrix *
+    damping() const
+    {
+      return damping_matrix.get();
+    }
+
     /// Forces of the solid.
     FiniteElasticity *elastic;
     /// Amplitudes, releases and base acceleration given to the constructor.
@@ -150,13 +163,15 @@ namespace NMM
     set_mass_of_translation();
 
     /// Number of releases passed so far, and of changes of absent blocks or of the tangent by
-    /// damp_by_stiffness().
+    /// damp().
     unsigned int n_passed = 0, n_changes = 0;
     SolidLayout  unknowns;
     /// The forces of a unit acceleration of the base [kg/m]; empty if the base does not move.
     Vector         mass_of_translation[2];
     LoadAmplitudes current;
     Presence       presence;
+    /// See damping().
+    std::unique_ptr<Matrix> damping_matrix;
     /// Loads at the end of the last step that was committed [N/m] and its time [s], unless they
     /// have changed since.
     Vector                last_loads;
@@ -176,8 +191,8 @@ namespace NMM
                          Loading                       loading = {},
                          std::shared_ptr<const Matrix> mass    = nullptr);
 
-    const Matrix *
-    damp_by_stiffness(double coefficient, bool is_conserving) override;
+    void
+    damp(const RayleighDamping &damping, bool is_conserving) override;
 
     Kinematics
     kinematics() const override
@@ -219,7 +234,7 @@ namespace NMM
     bool         has_follower;
     /// Coefficient of the stiffness in the damping [s], and the energy that damping dissipates in
     /// the step of the last conserving forces [J/m].
-    double damping = 0., dissipated_between = 0.;
+    double damping_between = 0., dissipated_between = 0.;
   };
 
 

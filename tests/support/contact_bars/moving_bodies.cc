@@ -63,8 +63,8 @@ namespace NMM
                             const RayleighDamping  &damping,
                             const NewtonParameters &newton)
     {
-      integrator =
-        std::make_unique<TimeIntegrator>(*model, scheme, damping, newton);
+      solid->damp(damping, scheme.is_conserving);
+      integrator = std::make_unique<TimeIntegrator>(*model, scheme, newton);
       // candidates are those of the state at rest otherwise
       model->restore_internal_state(model->internal_state());
       integrator->initialize(u, v);

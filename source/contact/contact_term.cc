@@ -157,6 +157,9 @@ namespace NMM
   void
   ContactTerm::begin_step(const StepBegin &step)
   {
+    // candidate pairs of a load step are those of the search for the equilibrium
+    if (step.is_at_rest)
+      return;
     // see ContactUpdate
     constexpr double near_rest = 1e-4;
 

@@ -189,7 +189,10 @@ namespace NMM
     const bool is_extrapolated = degree > 0 && states.size() > 1;
     if (is_extrapolated)
       change -= states.back().solution;
-    system->set_load_factor(step.load_factor);
+    system->begin_step(states.back().solution,
+                       states.back().load_factor,
+                       u,
+                       step.load_factor);
 
     StepFault fault =
       search->find(step, u, is_extrapolated ? &change : nullptr);

@@ -86,7 +86,7 @@ namespace NMM
   void
   SmallSolid::begin_step(const StepBegin &step)
   {
-    if (!inelastic)
+    if (!inelastic || step.is_at_rest)
       return;
     // the result is admissible, because an accepted state always has a stress
     (void)inelastic->assemble(step.u, /* with_tangent = */ false);

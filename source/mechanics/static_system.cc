@@ -45,6 +45,22 @@ namespace NMM
   }
 
 
+  void
+  StaticSystem::begin_step(const Vector &u,
+                           const double  from,
+                           const Vector &predicted,
+                           const double  to)
+  {
+    set_load_factor(to);
+    model.begin_step({u,
+                      predicted,
+                      from,
+                      to - from,
+                      /* imbalance = */ 0.,
+                      /* is_at_rest = */ true});
+  }
+
+
   Deformation
   StaticSystem::assemble(const Vector &u,
                          const Tangent tangent,

@@ -1,5 +1,7 @@
 // Terms of one's own beside those of solid and contact.
 
+#include <nmm/mechanics/nonlinear_statics.h>
+
 #include <base/archive.h>
 #include <dynamics/dynamic_model.h>
 #include <gtest/gtest.h>
@@ -221,5 +223,94 @@ namespace
     body.solid->damp({0., 0.1}, /* is_conserving = */ true);
     TimeIntegrator integrator(*body.mechanics, TimeScheme::newmark());
     EXPECT_THROW(step(integrator, 0.05), InputError);
+  }
+
+
+  /// Pushes a body on by M times its displacements at the beginning of a step, times @p factor
+  /// [1/s^2].
+  class Push : public ForceTerm
+  {
+  public:
+    Push(const ModelLayout &layout, const double factor)
+      : layout(&layout)
+      , factor(factor)
+      , begin(layout.locally_owned, layout.communicator)
+      , force(begin)
+    {
+    }
+
+    void
+    begin_step(const StepBegin &step) override
+    {
+      begin = step.u;
+      layout->mass->vmult(force, begin);
+      layout->constraints->set_zero(force);
+      force *= factor;
+      steps.push_back({step.time, step.time + step.length});
+      is_at_rest = step.is_at_rest;
+    }
+
+    Deformation
+    assemble(const Trial &, AssembledForces &sum) override
+    {
+      *sum.residual -= force;
+      sum.scale = std::hypot(sum.scale, force.l2_norm());
+      return Deformation::admissible;
+    }
+
+    ForceProperties
+    properties() const override
+    {
+      return {};
+    }
+
+    const ModelLayout                     *layout;
+    double                                 factor;
+    Vector                                 begin, force;
+    std::vector<std::pair<double, double>> steps;
+    bool                                   is_at_rest = false;
+  };
+
+
+  // What a term remembers from the beginning of a load step acts in that step.
+  TEST(Terms, BeginLoadStepsMPI)
+  {
+    for (const bool is_finite : {false, true})
+    {
+      Body body = box({0., 0.}, {1., 1.}, 0.7, material("rock", 1e4, 0.2, 2.));
+      body.model->problem.gravity             = Tensor<1, 2>({1., -2.});
+      body.model->problem.boundary_conditions = {
+        condition(BoundaryCondition::Type::displacement, "bottom")};
+      if (is_finite)
+        body.make_finite(proportional_loading(body.model->problem));
+      else
+        body.make_small(proportional_loading(body.model->problem));
+      // without what is pushed the displacements are about rho g / E
+      Push             push(body.solid->layout(), 1e3);
+      NonlinearStatics statics(*body.solid, {}, {&push});
+      Vector           last(body.zero()), difference(last);
+      unsigned int     n = 0;
+      statics.run(
+        LoadSteps::equal(3), [&](const LoadStep &step, const Vector &u) {
+          ASSERT_EQ(push.steps.size(), ++n);
+          EXPECT_TRUE(push.is_at_rest);
+          EXPECT_NEAR(push.steps.back().first, (n - 1) / 3., 1e-15);
+          EXPECT_NEAR(push.steps.back().second, step.load_factor, 1e-15);
+          difference = push.begin;
+          difference -= last;
+          EXPECT_EQ(difference.l2_norm(), 0.);
+          last = u;
+          if (is_finite)
+            return;
+          // the tolerance of the solution
+          const Vector rest = body.solid->residual_at(u, step.load_factor);
+          difference        = rest;
+          difference -= push.force;
+          EXPECT_LT(difference.l2_norm(),
+                    1e-8 * body.solid->layout().mass->l1_norm());
+          EXPECT_TRUE(n == 1 || rest.l2_norm() > 1e-3) << rest.l2_norm();
+        });
+      EXPECT_EQ(n, 3U);
+    }
   }
 } // namespace

@@ -107,6 +107,8 @@ namespace NMM
     double time, length;
     /// Forces out of balance at the beginning, see Account::imbalance [-].
     double imbalance;
+    /// Whether this is a load step, whose time is the load factor. No imbalance is known then.
+    bool is_at_rest = false;
   };
 
 
@@ -292,8 +294,8 @@ namespace NMM
    * leaves out what belongs to them. A term that uses only the sink is not derived from BlockTerm.
    *
    * The same terms act in motion (MechanicalModel, TimeIntegrator) and at rest: NonlinearStatics and
-   * ContactStatics take a list of them. At rest the time is the load factor, Trial::begin is null,
-   * and begin_step() is not called.
+   * ContactStatics take a list of them. At rest the time is the load factor, and Trial::begin is
+   * null.
    */
   class ForceTerm
   {

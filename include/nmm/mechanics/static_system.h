@@ -20,8 +20,8 @@ namespace NMM
    * So a state that is in balance with all loads stays at rest in all load steps. What has been
    * released is not held back again.
    *
-   * Order of calls in a load step: set_load_factor(), assemble() as often as needed, commit() if the
-   * step is accepted. ForceTerm::begin_step() is not called.
+   * Order of calls in a load step: begin_step(), assemble() as often as needed, commit() if the step
+   * is accepted; otherwise begin_step() again.
    *
    * Lifetime: all terms must outlive this object.
    */
@@ -41,9 +41,17 @@ namespace NMM
       return *solid_term;
     }
 
-    /// Set the load factor of the next assemblies [-].
+    /// Set the load factor of the next assemblies [-]; begin_step() does so, too.
     void
     set_load_factor(double load_factor);
+
+    /// Begin the load step from the displacements @p u at the load factor @p from to the factor
+    /// @p to, where they will be about @p predicted.
+    void
+    begin_step(const Vector &u,
+               double        from,
+               const Vector &predicted,
+               double        to);
 
     Deformation
     assemble(const Vector &u,

@@ -442,9 +442,9 @@ namespace NMM
 
 
   void
-  Contact::add_to_tangent(const Matrix &other, const double factor)
+  Contact::add_to_tangent(const Matrix &other)
   {
-    data->matrix.add_to_tangent(other, factor);
+    data->matrix.add_to_tangent(other);
   }
 
 

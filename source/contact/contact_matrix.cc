@@ -69,13 +69,11 @@ namespace NMM
 
 
     void
-    ContactMatrix::begin_assembly(const bool   new_with_tangent,
-                                  const double factor,
-                                  BodyMatrix  *new_body_matrix)
+    ContactMatrix::begin_assembly(const bool  new_with_tangent,
+                                  BodyMatrix *new_body_matrix)
     {
-      with_tangent   = new_with_tangent;
-      tangent_factor = factor;
-      body_matrix    = new_body_matrix;
+      with_tangent = new_with_tangent;
+      body_matrix  = new_body_matrix;
       assembler->reset(with_tangent && body_matrix == nullptr);
     }
 
@@ -86,10 +84,6 @@ namespace NMM
       const unsigned int                          n = 2 * local.n_covers;
       const dealii::ArrayView<const unsigned int> covers(local.covers,
                                                          local.n_covers);
-      for (unsigned int i = 0;
-           with_tangent && tangent_factor != 1. && i < n * n;
-           ++i)
-        local.matrix[i] *= tangent_factor;
       const bool is_sparse = with_tangent && body_matrix == nullptr;
       assembler->add(covers, is_sparse ? local.matrix : nullptr, local.rhs);
       if (!with_tangent || is_sparse)
@@ -111,9 +105,9 @@ namespace NMM
 
 
     void
-    ContactMatrix::add_to_tangent(const Matrix &other, const double factor)
+    ContactMatrix::add_to_tangent(const Matrix &other)
     {
-      add_rows(factor, other, matrix, active->active_rows());
+      add_rows(1., other, matrix, active->active_rows());
     }
 
 

@@ -71,12 +71,10 @@ namespace NMM
       void
       couple(const std::vector<unsigned int> &slaves);
 
-      /// Begin an assembly. @p factor: factor on the tangent. @p body_matrix: matrix to which the
-      /// tangent is added instead of tangent(), or null.
+      /// Begin an assembly. @p body_matrix: matrix to which the tangent is added instead of tangent(),
+      /// or null.
       void
-      begin_assembly(bool        with_tangent,
-                     double      factor      = 1.,
-                     BodyMatrix *body_matrix = nullptr);
+      begin_assembly(bool with_tangent, BodyMatrix *body_matrix = nullptr);
 
       /// Add the terms of one point; @p local is changed.
       void
@@ -93,7 +91,7 @@ namespace NMM
       }
 
       void
-      add_to_tangent(const Matrix &other, double factor);
+      add_to_tangent(const Matrix &other);
 
       const Vector &
       residual() const
@@ -149,9 +147,8 @@ namespace NMM
       Vector forces;
 
       /// Arguments of begin_assembly() for the present assembly.
-      bool        with_tangent   = false;
-      double      tangent_factor = 1.;
-      BodyMatrix *body_matrix    = nullptr;
+      bool        with_tangent = false;
+      BodyMatrix *body_matrix  = nullptr;
     };
   } // namespace internal
 } // namespace NMM

@@ -91,24 +91,23 @@ namespace NMM
     if (contact->is_idle())
       return;
 
-    const bool is_scaled =
-      with_tangent && trial.tangent_factor != 0. &&
+    const bool is_writable =
+      with_tangent &&
       dealii::Utilities::MPI::n_mpi_processes(layout->communicator) == 1;
-    const double      factor = is_scaled ? trial.tangent_factor : 1.;
-    BodyMatrix *const bodies = is_scaled ? begin_body_matrix() : nullptr;
+    BodyMatrix *const bodies = is_writable ? begin_body_matrix() : nullptr;
     ContactTimeStep   step(*contact);
-    step.assemble(*trial.end, trial.end_time, with_tangent, factor, bodies);
+    step.assemble(*trial.end, trial.end_time, with_tangent, bodies);
     add_forces(total);
     if (!with_tangent)
       return;
     if (bodies != nullptr)
-      bodies->add(factor, *total.tangent);
+      bodies->add(1., *total.tangent);
     else
-      contact->add_to_tangent(*total.tangent, factor);
-    total.body_tangent    = bodies;
-    total.tangent         = &contact->tangent();
-    total.scaled_tangent  = is_scaled ? &contact->tangent() : nullptr;
-    total.pattern_version = contact->pattern_version();
+      contact->add_to_tangent(*total.tangent);
+    total.body_tangent     = bodies;
+    total.tangent          = &contact->tangent();
+    total.writable_tangent = is_writable ? &contact->tangent() : nullptr;
+    total.pattern_version  = contact->pattern_version();
     if (is_block_diagonal)
       total.coupled_blocks = &step.coupled_bodies();
   }
@@ -213,7 +212,7 @@ namespace NMM
     d.add_forces(sum);
     if (with_tangent)
     {
-      d.contact->add_to_tangent(*sum.tangent, 1.);
+      d.contact->add_to_tangent(*sum.tangent);
       sum.tangent         = &d.contact->tangent();
       sum.pattern_version = d.contact->pattern_version();
     }

@@ -526,7 +526,6 @@ namespace NMM
   ContactTimeStep::assemble(const Vector &end,
                             const double  time,
                             const bool    with_tangent,
-                            const double  tangent_factor,
                             BodyMatrix   *body_matrix)
   {
     Data &d = *data;
@@ -574,7 +573,7 @@ namespace NMM
       d.matrix.couple(d.slaves_of(d.step.near_points));
     else if (is_sparse)
       d.matrix.couple_all();
-    d.matrix.begin_assembly(with_tangent, tangent_factor, body_matrix);
+    d.matrix.begin_assembly(with_tangent, body_matrix);
     d.add_points(d.step.near_points,
                  with_tangent,
                  [&](const unsigned int q, Data::PointForces &forces) {

@@ -44,25 +44,27 @@ namespace NMM
         mix(v, scheme.alpha_f, begin->v, rows, result);
       }
 
-      /// Derivative of the displacements in r with respect to u [-].
+      /// Derivative of the displacements in r with respect to u [-]. The equations are divided by it,
+      /// so that the tangent of the terms is a summand of their derivative.
       double
       stiffness_factor() const
       {
         return 1. - scheme.alpha_f;
       }
 
-      /// Derivative of v_{1 - alpha_f} with respect to u [1/s].
+      /// Derivative of v_{1 - alpha_f} with respect to u over stiffness_factor() [1/s].
       double
       damping_factor() const
       {
-        return stiffness_factor() * scheme.gamma / (scheme.beta * length);
+        return scheme.gamma / (scheme.beta * length);
       }
 
-      /// Derivative of a_{1 - alpha_m} with respect to u [1/s^2].
+      /// Derivative of a_{1 - alpha_m} with respect to u over stiffness_factor() [1/s^2].
       double
       mass_factor() const
       {
-        return (1. - scheme.alpha_m) / (scheme.beta * length * length);
+        return (1. - scheme.alpha_m) /
+               (stiffness_factor() * scheme.beta * length * length);
       }
 
       /// Time of the loads unless the forces are conserving [s].

@@ -90,8 +90,7 @@ namespace NMM
       if (step.scheme.is_conserving)
       {
         trial = Trial::step(u_begin, u, begin->time, step.end_time(), true);
-        trial.tangent        = tangent;
-        trial.tangent_factor = step.stiffness_factor();
+        trial.tangent = tangent;
       }
       else if (step.scheme.alpha_f != 0.)
       {
@@ -168,6 +167,10 @@ namespace NMM
       subtract_closing(step.closing_share());
       if (model->layout().constraints->n_constraints() > 0)
         model->layout().constraints->set_zero(forces);
+      const double k = step.stiffness_factor();
+      rows.for_each(n, [&](const unsigned int i) { f[i] /= k; });
+      result.force_scale /= k;
+      result.force_rounding /= k;
       return Deformation::admissible;
     }
   } // namespace internal

@@ -11,8 +11,9 @@ namespace NMM
 {
   namespace internal
   {
-    /// The equations of a time step, whose unknowns are the displacements at its end. Lifetime: the
-    /// model and the state at the beginning must outlive this object.
+    /// The equations of a time step, whose unknowns are the displacements at its end. They are
+    /// divided by SchemeStep::stiffness_factor(), so that the tangent of the terms need not be
+    /// multiplied. Lifetime: the model and the state at the beginning must outlive this object.
     class StepEquations : public NonlinearSystem
     {
     public:

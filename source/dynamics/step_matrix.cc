@@ -48,13 +48,11 @@ namespace NMM
     void
     StepMatrix::assemble(const SchemeStep &step, const AssembledForces &forces)
     {
-      const double k = step.stiffness_factor(), c = step.damping_factor(),
-                   m    = step.mass_factor();
-      in_place          = forces.scaled_tangent;
+      in_place          = forces.writable_tangent;
       const auto add_to = [&](const auto &add) {
-        add(m, *layout->mass);
-        if (forces.damping != nullptr && c != 0.)
-          add(c, *forces.damping);
+        add(step.mass_factor(), *layout->mass);
+        if (forces.damping != nullptr)
+          add(step.damping_factor(), *forces.damping);
       };
       if (forces.body_tangent != nullptr)
       {
@@ -66,11 +64,10 @@ namespace NMM
       if (in_place == nullptr && !rows.all() &&
           own_version == forces.pattern_version)
         // other rows have been assembled before, and have their mass and damping
-        set_rows(k, *forces.tangent, own_matrix, rows);
+        set_rows(*forces.tangent, own_matrix, rows);
       else if (in_place == nullptr)
       {
         own_matrix.copy_from(*forces.tangent);
-        own_matrix *= k;
         own_version = forces.pattern_version;
       }
       Matrix &sum = in_place != nullptr ? *in_place : own_matrix;

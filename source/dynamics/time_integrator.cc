@@ -250,6 +250,11 @@ namespace NMM
   TimeIntegrator::Data::solve_nonlinear(StepReport  &report,
                                         const double residual_tolerance)
   {
+    const auto wakes = [this] {
+      Vector rest(equations.residual());
+      rest *= equations.step.stiffness_factor();
+      return equations.sleeping->wake(rest, equations.step.u, state.rest);
+    };
     do
     {
       if (report.converged)
@@ -266,10 +271,7 @@ namespace NMM
         report.n_full_iterations += iteration.active_share;
       report.factorization_time += result.factorization_time;
       report.substitution_time += result.substitution_time;
-    } while (report.converged && equations.sleeping &&
-             equations.sleeping->wake(equations.residual(),
-                                      equations.step.u,
-                                      state.rest));
+    } while (report.converged && equations.sleeping && wakes());
   }
 
 

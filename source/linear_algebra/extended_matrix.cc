@@ -71,8 +71,7 @@ namespace NMM
 
 
     void
-    ExtendedMatrix::add(const double       factor,
-                        const Index       *unknowns,
+    ExtendedMatrix::add(const Index       *unknowns,
                         const unsigned int n,
                         const double      *values,
                         const ActiveItems &rows)
@@ -88,7 +87,7 @@ namespace NMM
         if (row < 0 || !rows.contains(row))
           continue;
         for (unsigned int j = 0; j < n; ++j)
-          to.values[entry(to, row, columns[j])] += factor * values[n * i + j];
+          to.values[entry(to, row, columns[j])] += values[n * i + j];
       }
     }
   } // namespace internal

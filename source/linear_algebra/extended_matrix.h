@@ -37,11 +37,9 @@ namespace NMM
       void
       read(const Matrix &original, const ActiveItems &rows);
 
-      /// Add @p factor times the n x n @p values, stored row by row, of the n @p unknowns, in owned
-      /// unknowns of @p rows.
+      /// Add the n x n @p values, stored row by row, of the n @p unknowns, in owned unknowns of @p rows.
       void
-      add(double             factor,
-          const Index       *unknowns,
+      add(const Index       *unknowns,
           unsigned int       n,
           const double      *values,
           const ActiveItems &rows);

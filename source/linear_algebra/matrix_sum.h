@@ -39,17 +39,16 @@ namespace NMM
     }
 
 
-    /// Set chosen rows of @p to to @p factor times those of @p from. The patterns must be the same.
+    /// Set chosen rows of @p to to those of @p from. The patterns must be the same.
     inline void
-    set_rows(const double                                  factor,
-             const dealii::TrilinosWrappers::SparseMatrix &from,
+    set_rows(const dealii::TrilinosWrappers::SparseMatrix &from,
              dealii::TrilinosWrappers::SparseMatrix       &to,
              const ActiveItems                            &rows)
     {
       const MatrixRows source(from), copy(to);
       for (const unsigned int row : rows.chosen())
         for (int i = source.begins[row]; i < source.begins[row + 1]; ++i)
-          copy.values[i] = factor * source.values[i];
+          copy.values[i] = source.values[i];
     }
   } // namespace internal
 } // namespace NMM

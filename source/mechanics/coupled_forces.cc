@@ -7,24 +7,6 @@
 
 namespace NMM
 {
-  void
-  ForceSink::add(const MaterialVector       &d,
-                 const dealii::Tensor<1, 2> &force,
-                 const dealii::Tensor<2, 2> &stiffness)
-  {
-    const unsigned int         n = d.unknowns.size();
-    dealii::Vector<double>     forces(n);
-    dealii::FullMatrix<double> tangent(n);
-    for (unsigned int i = 0; i < n; ++i)
-    {
-      forces(i) = d.weights[i] * force;
-      for (unsigned int j = 0; j < n; ++j)
-        tangent(i, j) = d.weights[i] * (stiffness * d.weights[j]);
-    }
-    add(d.unknowns, forces, tangent);
-  }
-
-
   namespace internal
   {
     namespace
@@ -68,18 +50,25 @@ namespace NMM
 
 
     void
+    CoupledForces::add_unknowns(const Unknowns &of_forces)
+    {
+      Assert(are_free_pairs(of_forces, *layout),
+             dealii::ExcMessage(
+               "Forces act on pairs of free unknowns 2k and 2k + 1."));
+      unknowns.insert(unknowns.end(), of_forces.begin(), of_forces.end());
+      begins.push_back(unknowns.size());
+    }
+
+
+    void
     CoupledForces::add(const Unknowns                   &of_forces,
                        const dealii::Vector<double>     &added,
                        const dealii::FullMatrix<double> &tangent)
     {
       const unsigned int n = of_forces.size();
       AssertDimension(added.size(), n);
-      Assert(are_free_pairs(of_forces, *layout),
-             dealii::ExcMessage(
-               "Forces act on pairs of free unknowns 2k and 2k + 1."));
-      unknowns.insert(unknowns.end(), of_forces.begin(), of_forces.end());
+      add_unknowns(of_forces);
       forces.insert(forces.end(), added.begin(), added.end());
-      begins.push_back(unknowns.size());
       if (!with_tangent)
         return;
       AssertDimension(tangent.m(), n);
@@ -91,17 +80,31 @@ namespace NMM
 
 
     void
-    CoupledForces::finish(const Trial &trial, AssembledForces &sum)
+    CoupledForces::add(const MaterialVector       &d,
+                       const dealii::Tensor<1, 2> &force,
+                       const dealii::Tensor<2, 2> &stiffness)
+    {
+      add_unknowns(d.unknowns);
+      for (const dealii::Tensor<1, 2> &row : d.weights)
+      {
+        forces.push_back(row * force);
+        for (unsigned int j = 0; with_tangent && j < d.weights.size(); ++j)
+          tangents.push_back(row * (stiffness * d.weights[j]));
+      }
+    }
+
+
+    void
+    CoupledForces::finish(AssembledForces &sum)
     {
       add_residual(sum);
       find_blocks(with_tangent);
       if (!with_tangent)
         return;
       if (sum.body_tangent != nullptr)
-        add_body_tangent(trial.tangent_factor, sum);
+        add_body_tangent(sum);
       else
-        add_tangent(sum.scaled_tangent != nullptr ? trial.tangent_factor : 1.,
-                    sum);
+        add_tangent(sum);
       if (sum.coupled_blocks == nullptr)
         return;
       all_pairs = *sum.coupled_blocks;
@@ -150,12 +153,10 @@ namespace NMM
 
 
     void
-    CoupledForces::add_body_tangent(const double factor, AssembledForces &sum)
+    CoupledForces::add_body_tangent(AssembledForces &sum)
     {
       BodyMatrix &bodies = *sum.body_tangent;
       (void)set_version(&bodies, sum);
-      for (double &value : tangents)
-        value *= factor;
       std::vector<unsigned int> covers;
       for_each_matrix([&](const dealii::types::global_dof_index *first,
                           const unsigned int                     n,
@@ -169,21 +170,17 @@ namespace NMM
 
 
     void
-    CoupledForces::add_tangent(const double factor, AssembledForces &sum)
+    CoupledForces::add_tangent(AssembledForces &sum)
     {
-      const Matrix &of_terms =
-        sum.scaled_tangent != nullptr ? *sum.scaled_tangent : *sum.tangent;
+      const Matrix &of_terms = *sum.tangent;
       if (set_version(&of_terms, sum))
         matrix.build(of_terms, layout->locally_owned, layout->communicator);
       matrix.read(of_terms, rows);
-      for_each_matrix([&](const dealii::types::global_dof_index *first,
-                          const unsigned int                     n,
-                          const double                          *values) {
-        matrix.add(factor, first, n, values, rows);
-      });
-      sum.tangent = &matrix.matrix();
-      if (sum.scaled_tangent != nullptr)
-        sum.scaled_tangent = &matrix.matrix();
+      for_each_matrix(
+        [&](const dealii::types::global_dof_index *first,
+            const unsigned int                     n,
+            const double *values) { matrix.add(first, n, values, rows); });
+      sum.tangent = sum.writable_tangent = &matrix.matrix();
     }
 
 

@@ -34,16 +34,19 @@ namespace NMM
       void
       begin(const Trial &trial, AssembledForces &sum);
 
-      using ForceSink::add;
-
       void
       add(const Unknowns                   &unknowns,
           const dealii::Vector<double>     &forces,
           const dealii::FullMatrix<double> &tangent) override;
 
+      void
+      add(const MaterialVector       &d,
+          const dealii::Tensor<1, 2> &force,
+          const dealii::Tensor<2, 2> &stiffness) override;
+
       /// Add everything to @p sum, which has the forces of all terms.
       void
-      finish(const Trial &trial, AssembledForces &sum);
+      finish(AssembledForces &sum);
 
       void
       set_active_blocks(const std::vector<bool> &is_active,
@@ -54,13 +57,16 @@ namespace NMM
 
     private:
       void
+      add_unknowns(const Unknowns &of_forces);
+
+      void
       add_residual(AssembledForces &sum);
 
       void
-      add_body_tangent(double factor, AssembledForces &sum);
+      add_body_tangent(AssembledForces &sum);
 
       void
-      add_tangent(double factor, AssembledForces &sum);
+      add_tangent(AssembledForces &sum);
 
       bool
       set_version(const void *of_terms, AssembledForces &sum);

@@ -98,7 +98,7 @@ namespace NMM
       if (term->assemble(trial, sum) != Deformation::admissible)
         return Deformation::inverted;
     if (coupled)
-      coupled->finish(trial, sum);
+      coupled->finish(sum);
     return Deformation::admissible;
   }
 

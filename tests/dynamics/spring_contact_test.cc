@@ -84,88 +84,75 @@ namespace
   };
 
 
-  /// The tangent of the last assembly times a vector, and the factor of that matrix.
-  std::pair<Vector, double>
-  times_tangent(const MechanicalModel &model,
-                const Trial           &trial,
-                const Vector          &direction)
+  /// The tangent of the last assembly times a vector.
+  Vector
+  times_tangent(const AssembledForces &forces, const Vector &direction)
   {
-    const AssembledForces &forces = model.forces();
-    Vector                 product(direction);
+    Vector product(direction);
     if (forces.body_tangent != nullptr)
       forces.body_tangent->sparse().vmult(product, direction);
-    else if (forces.scaled_tangent != nullptr)
-      forces.scaled_tangent->vmult(product, direction);
     else
       forces.tangent->vmult(product, direction);
-    return {product,
-            forces.body_tangent != nullptr || forces.scaled_tangent != nullptr
-              ? trial.tangent_factor
-              : 1.};
+    return product;
   }
 
 
-  // Springs add the same to each of the three kinds of matrices, while contact points are closed: what
+  // Springs add the same to both kinds of matrices, while contact points are closed: what
   // they add to the solid alone.
   TEST(SpringsAndContact, AddTheSameToEachMatrix)
   {
     for (const bool mesh_of_every_block : {true, false})
-      for (const double factor : {0., 0.5})
-      {
-        Falling            falling(mesh_of_every_block);
-        const Vector       u = falling.run(true, TimeScheme::energy_momentum());
-        ForceTerm *const   solid  = falling.bodies->solid.get();
-        ForceTerm *const   touch  = falling.bodies->touch.get();
-        ForceTerm *const   spring = falling.springs.get();
-        const ModelLayout &layout = falling.bodies->solid->layout();
-        const double       t      = falling.bodies->integrator->state().time;
-        std::mt19937       generator(5);
-        const Vector direction = random_displacement(layout, 1., generator);
-        Trial        trial     = Trial::step(u, u, t, t + 0.0025, true);
-        trial.tangent          = Tangent::consistent;
-        trial.tangent_factor   = factor;
-        // what springs add to r and to K times the direction
-        const auto added = [&](std::vector<ForceTerm *> terms,
-                               double                  &n_pairs) {
-          MechanicalModel without(layout, terms);
-          terms.insert(terms.begin() + 1, spring);
-          MechanicalModel       with(layout, terms);
-          std::array<Vector, 2> result = {direction, direction};
-          result[0] = result[1] = 0.;
-          for (MechanicalModel *model : {&with, &without})
-          {
-            model->begin_step({u, u, t, 0.0025, 0.});
-            EXPECT_EQ(model->assemble(trial), Deformation::admissible);
-            const double sign = model == &with ? 1. : -1.;
-            result[0].add(sign, *model->forces().residual);
-            const auto [product, of_matrix] =
-              times_tangent(*model, trial, direction);
-            result[1].add(sign / of_matrix, product);
-            if (const auto *pairs = model->forces().coupled_blocks)
-              n_pairs += sign * pairs->size();
-            if (model == &with && terms.size() > 2)
-            {
-              EXPECT_EQ(model->forces().body_tangent != nullptr,
-                        mesh_of_every_block && factor != 0.);
-            }
-          }
-          return result;
-        };
-        double     n_pairs = 0., n_none = 0.;
-        const auto beside = added({solid, touch}, n_pairs);
-        const auto alone  = added({solid}, n_none);
-        for (const unsigned int i : {0, 1})
+    {
+      Falling            falling(mesh_of_every_block);
+      const Vector       u = falling.run(true, TimeScheme::energy_momentum());
+      ForceTerm *const   solid  = falling.bodies->solid.get();
+      ForceTerm *const   touch  = falling.bodies->touch.get();
+      ForceTerm *const   spring = falling.springs.get();
+      const ModelLayout &layout = falling.bodies->solid->layout();
+      const double       t      = falling.bodies->integrator->state().time;
+      std::mt19937       generator(5);
+      const Vector       direction = random_displacement(layout, 1., generator);
+      Trial              trial     = Trial::step(u, u, t, t + 0.0025, true);
+      trial.tangent                = Tangent::consistent;
+      // what springs add to r and to K times the direction
+      const auto added = [&](std::vector<ForceTerm *> terms, double &n_pairs) {
+        MechanicalModel without(layout, terms);
+        terms.insert(terms.begin() + 1, spring);
+        MechanicalModel       with(layout, terms);
+        std::array<Vector, 2> result = {direction, direction};
+        result[0] = result[1] = 0.;
+        for (MechanicalModel *model : {&with, &without})
         {
-          Vector difference(beside[i]);
-          difference -= alone[i];
-          // rounding of contact and elasticity, 1e9 Pa, of which springs of 2e6 Pa are a part
-          EXPECT_LT(difference.linfty_norm(), 1e-10 * alone[i].linfty_norm())
-            << i;
-          EXPECT_GT(alone[i].linfty_norm(), i == 0 ? 1e3 : 1e5);
+          model->begin_step({u, u, t, 0.0025, 0.});
+          EXPECT_EQ(model->assemble(trial), Deformation::admissible);
+          const double sign = model == &with ? 1. : -1.;
+          result[0].add(sign, *model->forces().residual);
+          result[1].add(sign, times_tangent(model->forces(), direction));
+          if (const auto *pairs = model->forces().coupled_blocks)
+            n_pairs += sign * pairs->size();
+          if (model == &with && terms.size() > 2)
+          {
+            EXPECT_EQ(model->forces().body_tangent != nullptr,
+                      mesh_of_every_block);
+          }
         }
-        // where contact tells which blocks it couples, springs add theirs
-        EXPECT_EQ(n_pairs, mesh_of_every_block ? 1. : 0.);
+        return result;
+      };
+      double     n_pairs = 0., n_none = 0.;
+      const auto beside = added({solid, touch}, n_pairs);
+      const auto alone  = added({solid}, n_none);
+      for (const unsigned int i : {0, 1})
+      {
+        Vector difference(beside[i]);
+        difference -= alone[i];
+        // rounding of contact and elasticity, 1e9 Pa, of which springs of 2e6 Pa are a part
+        EXPECT_LT(difference.linfty_norm(), 1e-10 * alone[i].linfty_norm())
+          << i;
+        EXPECT_GT(alone[i].linfty_norm(), i == 0 ? 1e3 : 1e5);
       }
+      // where contact tells which blocks it couples, springs add theirs
+      EXPECT_EQ(n_pairs, mesh_of_every_block ? 1. : 0.);
+    }
   }
 
 

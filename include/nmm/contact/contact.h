@@ -359,7 +359,7 @@ namespace NMM
     /// Add @p factor times @p matrix to the tangent, in the rows of active bodies, until the next
     /// assembly. The pattern of the matrix must lie within that of the tangent.
     void
-    add_to_tangent(const Matrix &matrix, double factor = 1.);
+    add_to_tangent(const Matrix &matrix);
 
     /// A number that grows whenever the sparsity pattern of tangent() changes.
     unsigned int

@@ -72,16 +72,15 @@ namespace NMM
      * fixed. It is not symmetric, because forces depend on the mean position and on the gaps at the
      * end. Multipliers are not used.
      *
-     * The tangent is multiplied by @p tangent_factor. If @p body_matrix is not null, the tangent is
-     * added to it instead, and Contact::tangent() is undefined. This needs one rank and constraints
-     * that couple no unknowns; the bodies of the matrix are the blocks of the mesh.
+     * If @p body_matrix is not null, the tangent is added to it instead, and Contact::tangent() is
+     * undefined. This needs one rank and constraints that couple no unknowns; the bodies of the matrix
+     * are the blocks of the mesh.
      */
     void
     assemble(const Vector &end,
              double        time,
              bool          with_tangent,
-             double        tangent_factor = 1.,
-             BodyMatrix   *body_matrix    = nullptr);
+             BodyMatrix   *body_matrix = nullptr);
 
     /// Let assemblies skip points between two inactive blocks; these points stay as the last
     /// assembly found them, and the rows of inactive blocks are undefined. Blocks that are held are

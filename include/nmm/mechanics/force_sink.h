@@ -30,10 +30,10 @@ namespace NMM
 
     /// Add a @p force [N/m] that works on the vector @p d, so that its power is F . d', and its
     /// derivative @p stiffness = dF/dd [Pa].
-    void
+    virtual void
     add(const MaterialVector       &d,
         const dealii::Tensor<1, 2> &force,
-        const dealii::Tensor<2, 2> &stiffness);
+        const dealii::Tensor<2, 2> &stiffness) = 0;
   };
 } // namespace NMM
 

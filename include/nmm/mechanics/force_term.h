@@ -141,9 +141,6 @@ namespace NMM
     Tangent tangent = Tangent::none;
     /// See NonlinearSystem::assemble(); may be null.
     const Vector *increment = nullptr;
-    /// Factor by which a term may multiply a tangent of conserving forces, see
-    /// AssembledForces::scaled_tangent; 0: none may [-].
-    double tangent_factor = 0.;
     /// Whether the energies of AssembledForces are wanted, which may cost a further evaluation.
     bool with_energies = true;
 
@@ -208,11 +205,10 @@ namespace NMM
 
     /// K = dr/du of the last assembly with a tangent [Pa].
     const dealii::TrilinosWrappers::SparseMatrix *tangent = nullptr;
-    /// K times Trial::tangent_factor in a matrix that the caller may add entries to, which saves
-    /// another one. Such entries are lost when that row is reassembled, and stay otherwise. Null:
-    /// only `tangent` is there.
-    dealii::TrilinosWrappers::SparseMatrix *scaled_tangent = nullptr;
-    /// The same as a body matrix, if it was assembled as one instead; otherwise null.
+    /// `tangent`, if the caller may add entries to it, which saves another matrix. Such entries are
+    /// lost when that row is reassembled, and stay otherwise. Null: it may not.
+    dealii::TrilinosWrappers::SparseMatrix *writable_tangent = nullptr;
+    /// K as a body matrix, if it was assembled as one instead; otherwise null.
     BodyMatrix *body_tangent = nullptr;
     /// A number that changes whenever K has a new sparsity pattern.
     unsigned int pattern_version = 0;

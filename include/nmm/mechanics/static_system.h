@@ -20,8 +20,8 @@ namespace NMM
    * So a state that is in balance with all loads stays at rest in all load steps. What has been
    * released is not held back again.
    *
-   * Order of calls in a load step: begin_step(), assemble() as often as needed, commit() if the step
-   * is accepted; otherwise begin_step() again.
+   * Order of calls in a load step: begin_step(), assemble() as often as needed, commit() if the
+   * step is accepted; otherwise begin_step() again.
    *
    * Lifetime: all terms must outlive this object.
    */

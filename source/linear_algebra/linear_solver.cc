@@ -79,12 +79,12 @@ namespace NMM
       /// Solve for all right-hand sides and estimate the effect of rounding, see
       /// solve_linear_system().
       void
-      solve_direct(const Matrix        &matrix,
-                   const AllRhs        &rhs,
-                   std::vector<Vector> &solutions,
-                   std::vector<Vector> &effects,
-                   LinearSolverReport  &report)
+      solve_direct(const Matrix   &matrix,
+                   const AllRhs   &rhs,
+                   LinearSolution &result)
       {
+        std::vector<Vector>   &solutions    = result.solutions;
+        LinearSolverReport    &report       = result.report;
         constexpr double       worth_a_look = 1e-8;
         constexpr unsigned int n_samples    = 4;
 
@@ -110,11 +110,11 @@ namespace NMM
         solutions.pop_back();
         if (report.rounding_effect > worth_a_look)
         {
-          effects =
+          result.effects =
             samples_of_rounding(matrix, *rhs[0], solutions[0], n_samples);
-          solver.solve_all(effects);
+          solver.solve_all(result.effects);
           report.rounding_effect = 0.;
-          for (const Vector &effect : effects)
+          for (const Vector &effect : result.effects)
             report.rounding_effect =
               std::max(report.rounding_effect, effect.l2_norm() / size);
         }
@@ -180,9 +180,9 @@ namespace NMM
                       const CoverSystem                       &covers,
                       const dealii::AffineConstraints<double> &constraints,
                       const LinearSolverParameters            &parameters,
-                      std::vector<Vector>                     &solutions,
-                      LinearSolverReport                      &report)
+                      LinearSolution                          &result)
       {
+        LinearSolverReport  &report = result.report;
         dealii::Timer        timer;
         const Preconditioner preconditioner(matrix, covers, constraints);
         report.direct             = false;
@@ -201,7 +201,10 @@ namespace NMM
           try
           {
             if (norm > 0.)
-              solver.solve(matrix, solutions[i], *all_rhs[i], preconditioner);
+              solver.solve(matrix,
+                           result.solutions[i],
+                           *all_rhs[i],
+                           preconditioner);
           }
           catch (const dealii::SolverControl::NoConvergence &error)
           {
@@ -231,39 +234,37 @@ namespace NMM
     } // namespace
 
 
-    LinearSolverReport
+    LinearSolution
     solve_linear_system(const Matrix                            &matrix,
                         const AllRhs                            &rhs,
                         const CoverSystem                       &covers,
                         const dealii::AffineConstraints<double> &constraints,
-                        const LinearSolverParameters            &parameters,
-                        std::vector<Vector>                     &solutions,
-                        std::vector<Vector>                     &effects)
+                        const LinearSolverParameters            &parameters)
     {
       using Type = LinearSolverParameters::Type;
-      LinearSolverReport report;
-      solutions.assign(rhs.size(), *rhs.front());
-      for (Vector &solution : solutions)
+      LinearSolution      result;
+      LinearSolverReport &report = result.report;
+      result.solutions.assign(rhs.size(), *rhs.front());
+      for (Vector &solution : result.solutions)
         solution = 0.;
-      effects.clear();
       // Without loads the solution is zero, and the relative residual is undefined.
       if (std::all_of(rhs.begin(), rhs.end(), [](const Vector *b) {
             return b->l2_norm() == 0.;
           }))
-        return report;
+        return result;
 
       if (parameters.type == Type::direct ||
           (parameters.type == Type::automatic &&
            count_unknowns(matrix, constraints) <= parameters.direct_limit))
-        solve_direct(matrix, rhs, solutions, effects, report);
+        solve_direct(matrix, rhs, result);
       else
       {
         const auto solve =
           covers.manifold_mesh().mathematical_mesh().degree() == 2
             ? &solve_iterative<TwoLevelPreconditioner>
             : &solve_iterative<OneLevelPreconditioner>;
-        const std::string failure = solve(
-          matrix, rhs, covers, constraints, parameters, solutions, report);
+        const std::string failure =
+          solve(matrix, rhs, covers, constraints, parameters, result);
         AssertThrow(failure.empty() || parameters.type == Type::automatic,
                     NumericalFailure(failure,
                                      "",
@@ -271,14 +272,14 @@ namespace NMM
                                      "iterations, or aggregation of covers if "
                                      "it is off"));
         if (!failure.empty())
-          solve_direct(matrix, rhs, solutions, effects, report);
+          solve_direct(matrix, rhs, result);
       }
 
       report.relative_residual = 0.;
       for (unsigned int i = 0; i < rhs.size(); ++i)
       {
         const double residual =
-          relative_residual(matrix, *rhs[i], solutions[i]);
+          relative_residual(matrix, *rhs[i], result.solutions[i]);
         // written so that the report has a residual that is not a number
         if (!(residual <= report.relative_residual))
           report.relative_residual = residual;
@@ -292,7 +293,7 @@ namespace NMM
                          "",
                          "look for parts that hardly anything holds, or for "
                          "materials of extreme stiffness contrast"));
-      return report;
+      return result;
     }
   } // namespace internal
 } // namespace NMM

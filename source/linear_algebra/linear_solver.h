@@ -14,12 +14,23 @@ namespace NMM
 {
   namespace internal
   {
+    /// What solve_linear_system() returns.
+    struct LinearSolution
+    {
+      /// One for each right-hand side.
+      std::vector<dealii::TrilinosWrappers::MPI::Vector> solutions;
+      /// Samples of how much rounding changes the first of them.
+      std::vector<dealii::TrilinosWrappers::MPI::Vector> effects;
+      LinearSolverReport                                 report;
+    };
+
+
     /**
      * Solve the symmetric positive definite systems A x = b for all right-hand sides b, with one
      * factorization or preconditioner; see LinearSolverParameters. The report has the iterations
      * and the residual of the system that had most.
      *
-     * @p effects become samples e of how much rounding changes the first solution x: if each
+     * LinearSolution::effects are samples e of how much rounding changes the first solution x: if each
      * product A_ij x_j and each b_i is wrong by its rounding, x is off by e with A e = r,
      * r_i = +-epsilon (sum_j |A_ij x_j| + |b_i|) (Higham, Accuracy and Stability of Numerical
      * Algorithms, section 7.2: componentwise errors). Signs are random, since roundings add up
@@ -32,15 +43,13 @@ namespace NMM
      * @throws NumericalFailure if the factorization fails or the iteration does
      * not converge.
      */
-    LinearSolverReport
+    LinearSolution
     solve_linear_system(
       const dealii::TrilinosWrappers::SparseMatrix                     &matrix,
       const std::vector<const dealii::TrilinosWrappers::MPI::Vector *> &rhs,
       const CoverSystem                                                &covers,
-      const dealii::AffineConstraints<double>            &constraints,
-      const LinearSolverParameters                       &parameters,
-      std::vector<dealii::TrilinosWrappers::MPI::Vector> &solutions,
-      std::vector<dealii::TrilinosWrappers::MPI::Vector> &effects);
+      const dealii::AffineConstraints<double> &constraints,
+      const LinearSolverParameters            &parameters);
   } // namespace internal
 } // namespace NMM
 

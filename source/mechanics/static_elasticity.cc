@@ -92,14 +92,8 @@ namespace NMM
     std::vector<const dealii::TrilinosWrappers::MPI::Vector *> all_rhs = {&rhs};
     for (const auto &coupling : disks->couplings())
       all_rhs.push_back(&coupling);
-    std::vector<dealii::TrilinosWrappers::MPI::Vector> solutions, effects;
-    LinearSolverReport report = internal::solve_linear_system(system_matrix(),
-                                                              all_rhs,
-                                                              *covers,
-                                                              *constraints,
-                                                              parameters,
-                                                              solutions,
-                                                              effects);
+    auto [solutions, effects, report] = internal::solve_linear_system(
+      system_matrix(), all_rhs, *covers, *constraints, parameters);
     dealii::TrilinosWrappers::MPI::Vector distributed_solution =
       std::move(solutions.front());
     solutions.erase(solutions.begin());

@@ -645,17 +645,13 @@ namespace NMM
           when << ", t = " << last_value() << " s";
         PictureData drawn;
         if (parameters.picture)
-          write_picture(scene,
-                        *covers,
-                        evaluator ? contact.get() : nullptr,
-                        cracks.get(),
-                        triangles,
-                        evaluator.get(),
-                        scene.title() + when.str() +
-                          (is_solved ? "" : " (" + unsolved_note() + ")"),
-                        "picture.png",
-                        *directory,
-                        &drawn);
+          drawn =
+            series->draw(cracks.get(),
+                         triangles,
+                         evaluator.get(),
+                         scene.title() + when.str() +
+                           (is_solved ? "" : " (" + unsolved_note() + ")"),
+                         "picture.png");
         on_first_rank([&]() {
           series->write_animation(last_value(), evaluator ? &drawn : nullptr);
         });

@@ -33,43 +33,6 @@ namespace NMM
     } // namespace
 
 
-    void
-    write_picture(const Scene           &scene,
-                  const CoverSystem     &covers,
-                  const ContactAnalysis *contact,
-                  const CrackSample     *cracks,
-                  const FieldTriangles  &triangles,
-                  const FieldEvaluator  *evaluator,
-                  const std::string     &title,
-                  const std::string     &file_name,
-                  const OutputDirectory &directory,
-                  PictureData           *drawn)
-    {
-      OutputParameters parameters = scene.parameters().output;
-      if (evaluator == nullptr)
-        parameters.quantity = Quantity::block;
-      if (shows_true_size(scene) && parameters.deformation_scale < 0.)
-        parameters.deformation_scale = 1.;
-      parameters.material_names =
-        covers.manifold_mesh().physical_mesh().material_names();
-      PictureData data =
-        make_picture_data(covers, triangles, evaluator, parameters);
-      if (contact != nullptr)
-        add_contact(contact->contact().surface(),
-                    contact->points(),
-                    data,
-                    contact->pressure_of_rounding());
-      if (cracks != nullptr)
-        add_cracks(*cracks, data);
-      if (is_first_rank(covers))
-        directory.write_file(file_name, [&](const std::string &name) {
-          draw_picture(data, parameters, title, name);
-        });
-      if (drawn != nullptr)
-        *drawn = std::move(data);
-    }
-
-
     StateSeries::StateSeries(const Scene           &scene,
                              const CoverSystem     &covers,
                              const ContactAnalysis *contact,
@@ -164,23 +127,48 @@ namespace NMM
       }
       if (!output.picture)
         return;
-      PictureData data;
-      write_picture(*scene,
-                    *covers,
-                    contact,
-                    cracks,
-                    triangles,
-                    &evaluator,
-                    scene->title() + ", " + description,
-                    "picture" + suffix.str() + ".png",
-                    *directory,
-                    &data);
+      const PictureData data = draw(cracks,
+                                    triangles,
+                                    &evaluator,
+                                    scene->title() + ", " + description,
+                                    "picture" + suffix.str() + ".png");
       if (output.animation && is_first_rank(*covers))
       {
         if (animation == nullptr)
           open_animation(-std::numeric_limits<double>::infinity());
         animation->add_frame(value, data);
       }
+    }
+
+
+    PictureData
+    StateSeries::draw(const CrackSample    *cracks,
+                      const FieldTriangles &triangles,
+                      const FieldEvaluator *evaluator,
+                      const std::string    &title,
+                      const std::string    &file_name) const
+    {
+      OutputParameters parameters = scene->parameters().output;
+      if (evaluator == nullptr)
+        parameters.quantity = Quantity::block;
+      if (shows_true_size(*scene) && parameters.deformation_scale < 0.)
+        parameters.deformation_scale = 1.;
+      parameters.material_names =
+        covers->manifold_mesh().physical_mesh().material_names();
+      PictureData data =
+        make_picture_data(*covers, triangles, evaluator, parameters);
+      if (contact != nullptr && evaluator != nullptr)
+        add_contact(contact->contact().surface(),
+                    contact->points(),
+                    data,
+                    contact->pressure_of_rounding());
+      if (cracks != nullptr)
+        add_cracks(*cracks, data);
+      if (is_first_rank(*covers))
+        directory->write_file(file_name, [&](const std::string &name) {
+          draw_picture(data, parameters, title, name);
+        });
+      return data;
     }
 
 

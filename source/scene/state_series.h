@@ -16,22 +16,6 @@ namespace NMM
 {
   namespace internal
   {
-    /// Draws picture.png or a picture of a series, with the settings of the scene. If @p evaluator
-    /// is null, the picture shows the blocks. If @p contact is not null, it also shows contact
-    /// tractions and obstacles, and if @p cracks is not null, crack tips and cracks that have
-    /// grown. The content is stored in @p drawn on rank 0, unless that is null. Collective.
-    void
-    write_picture(const Scene           &scene,
-                  const CoverSystem     &covers,
-                  const ContactAnalysis *contact,
-                  const CrackSample     *cracks,
-                  const FieldTriangles  &triangles,
-                  const FieldEvaluator  *evaluator,
-                  const std::string     &title,
-                  const std::string     &file_name,
-                  const OutputDirectory &directory,
-                  PictureData           *drawn = nullptr);
-
     /**
      * Writes the fields and pictures of the states of a run, one after the other:
      * fields-NNNN.vtu, picture-NNNN.png, and fields.pvd, which always lists the fields that
@@ -79,6 +63,17 @@ namespace NMM
       /// Writes the contact points of the final state, if there is contact.
       void
       finish_contact(double value);
+
+      /// Draws picture.png or a picture of the series, with the settings of the scene, and returns
+      /// its content on rank 0. If @p evaluator is null, the picture shows the blocks, otherwise
+      /// contact tractions and obstacles as well; and if @p cracks is not null, crack tips and cracks
+      /// that have grown.
+      PictureData
+      draw(const CrackSample    *cracks,
+           const FieldTriangles &triangles,
+           const FieldEvaluator *evaluator,
+           const std::string    &title,
+           const std::string    &file_name) const;
 
       /// Writes animation.html, if there are frames for it. @p last is the picture of the final
       /// state at @p value, as a further frame, unless it is null.

@@ -4,6 +4,7 @@
 #include <nmm/dynamics/relaxation.h>
 #include <nmm/dynamics/strength_reduction.h>
 #include <nmm/dynamics/time_scheme.h>
+#include <nmm/mechanics/loading.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>

@@ -36,8 +36,11 @@ namespace NMM
     };
 
 
-    std::array<YieldPlane, 6>
-    yield_planes(const MohrCoulombLaw &law)
+    /// In plane strain those that can be active where the principal stresses are sorted. In plane
+    /// stress sigma_zz = 0 is the last one and may come anywhere in the order, also after a
+    /// return from elsewhere, so that there is a plane for each order.
+    std::vector<YieldPlane>
+    yield_planes(const MohrCoulombLaw &law, const PlaneState plane_state)
     {
       const double N     = passive_coefficient(law.friction);
       const double M     = passive_coefficient(law.dilation);
@@ -45,16 +48,28 @@ namespace NMM
       const double tension =
         law.friction > 0. ? std::min(law.tensile_strength, shear / (N - 1.))
                           : law.tensile_strength;
-      return {{{Vector3({N, 0., -1.}), Vector3({M, 0., -1.}), shear},
-               {Vector3({N, -1., 0.}), Vector3({M, -1., 0.}), shear},
-               {Vector3({0., N, -1.}), Vector3({0., M, -1.}), shear},
-               {Vector3({1., 0., 0.}), Vector3({1., 0., 0.}), tension},
-               {Vector3({0., 1., 0.}), Vector3({0., 1., 0.}), tension},
-               {Vector3({0., 0., 1.}), Vector3({0., 0., 1.}), tension}}};
+      std::vector<YieldPlane> planes;
+      constexpr unsigned int  orders[6][2] = {
+         {0, 2}, {0, 1}, {1, 2}, {2, 0}, {1, 0}, {2, 1}};
+      for (const auto &[large, small] : orders)
+        if (large < small || plane_state == PlaneState::plane_stress)
+        {
+          planes.push_back({Vector3(), Vector3(), shear});
+          planes.back().normal[large] = N;
+          planes.back().flow[large]   = M;
+          planes.back().normal[small] = planes.back().flow[small] = -1.;
+        }
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        Vector3 axis;
+        axis[i] = 1.;
+        planes.push_back({axis, axis, tension});
+      }
+      return planes;
     }
 
 
-    /// The result of a step from its trial stress, in principal axes sorted by the trial stress.
+    /// The result of a step from its trial stress, in the principal axes of the trial stress.
     struct PrincipalReturn
     {
       bool is_elastic = true;
@@ -75,13 +90,16 @@ namespace NMM
      *     \sigma = \sigma^\mathrm{trial} - C B\lambda, \quad
      *     \frac{d\sigma}{d\varepsilon} = C - C B (A C B)^{-1} A C; @f]
      * The set is admissible if no multiplier is negative and the conditions of all planes hold.
+     * In plane stress C is that of the plane, with zeros for the third axis: strain across the plane
+     * follows freely and causes no stress.
      * All matrices depend on the law only and are computed once.
      */
     class PrincipalReturnMap
     {
     public:
       PrincipalReturnMap(const MohrCoulombLaw  &law,
-                         const PlaneElasticity &elasticity);
+                         const PlaneElasticity &elasticity,
+                         PlaneState             plane_state);
 
       PrincipalReturn
       operator()(const Vector3 &trial) const;
@@ -103,9 +121,9 @@ namespace NMM
       void
       add_set(std::vector<unsigned int> planes, const Matrix3 &C);
 
-      std::array<YieldPlane, 6> planes;
+      std::vector<YieldPlane> planes;
       /// C b of each plane [Pa].
-      std::array<Vector3, 6> stress_of_flow;
+      std::vector<Vector3> stress_of_flow;
       /// Active sets in the order in which they are tried: one plane, two, and three.
       std::vector<ActiveSet> sets;
       double                 mu;
@@ -117,17 +135,20 @@ namespace NMM
 
 
     PrincipalReturnMap::PrincipalReturnMap(const MohrCoulombLaw  &law,
-                                           const PlaneElasticity &elasticity)
-      : planes(yield_planes(law))
+                                           const PlaneElasticity &elasticity,
+                                           const PlaneState       plane_state)
+      : planes(yield_planes(law, plane_state))
       , mu(elasticity.mu)
     {
+      const unsigned int n_axes =
+        plane_state == PlaneState::plane_stress ? 2 : 3;
       Matrix3 C;
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
+      for (unsigned int i = 0; i < n_axes; ++i)
+        for (unsigned int j = 0; j < n_axes; ++j)
           C[i][j] = elasticity.lambda + (i == j ? 2. * elasticity.mu : 0.);
       const unsigned int n = planes.size();
       for (unsigned int i = 0; i < n; ++i)
-        stress_of_flow[i] = C * planes[i].flow;
+        stress_of_flow.push_back(C * planes[i].flow);
       for (unsigned int i = 0; i < n; ++i)
         add_set({i}, C);
       for (unsigned int i = 0; i < n; ++i)
@@ -225,12 +246,15 @@ namespace NMM
     class MohrCoulomb : public InelasticLaw
     {
     public:
-      MohrCoulomb(const MohrCoulombLaw &law, const Material &material)
-        : elasticity(material.plane_elasticity(PlaneState::plane_strain))
-        , return_map(law, elasticity)
+      MohrCoulomb(const MohrCoulombLaw &law,
+                  const Material       &material,
+                  const PlaneState      plane_state)
+        : plane_state(plane_state)
+        , elasticity(material.plane_elasticity(plane_state))
+        , poissons_ratio(material.poissons_ratio)
+        , return_map(law, elasticity, plane_state)
         , initial_stress(material.initial_stress)
-        , initial_stress_zz(
-            material.initial_stress_zz(PlaneState::plane_strain))
+        , initial_stress_zz(material.initial_stress_zz(plane_state))
       {
       }
 
@@ -240,30 +264,42 @@ namespace NMM
                Response                    &response) const override;
 
     private:
-      /// Sets the energy and the stress by Hooke's law.
+      /// Sets the energy, the stress and the strain across the plane by Hooke's law for the
+      /// plastic strain in @p response.
       void
-      set_elastic(const SymmetricTensor<2, 2> &elastic_strain,
-                  double                       elastic_strain_zz,
+      set_elastic(const SymmetricTensor<2, 2> &strain,
                   Response                    &response) const;
 
+      PlaneState            plane_state;
       PlaneElasticity       elasticity;
+      double                poissons_ratio;
       PrincipalReturnMap    return_map;
       SymmetricTensor<2, 2> initial_stress;
       double                initial_stress_zz;
     };
 
 
+    /// In plane stress neither initial nor caused stress does work across the plane.
     void
-    MohrCoulomb::set_elastic(const SymmetricTensor<2, 2> &e,
-                             const double                 e_zz,
+    MohrCoulomb::set_elastic(const SymmetricTensor<2, 2> &strain,
                              Response                    &response) const
     {
-      const double pressure = elasticity.lambda * (dealii::trace(e) + e_zz);
+      const SymmetricTensor<2, 2> e = strain - response.state.plastic_strain;
+      const bool   is_thin          = plane_state == PlaneState::plane_stress;
+      const double e_zz =
+        is_thin ? -poissons_ratio / (1. - poissons_ratio) * dealii::trace(e)
+                : -response.state.plastic_strain_zz;
+      response.strain_zz =
+        is_thin ? e_zz + response.state.plastic_strain_zz : 0.;
+
+      const double pressure =
+        elasticity.lambda * (dealii::trace(e) + (is_thin ? 0. : e_zz));
       SymmetricTensor<2, 2> caused = 2. * elasticity.mu * e;
       caused[0][0] += pressure;
       caused[1][1] += pressure;
-      const double caused_zz = pressure + 2. * elasticity.mu * e_zz;
-      response.energy        = 0.5 * (caused * e + caused_zz * e_zz) +
+      const double caused_zz =
+        is_thin ? 0. : pressure + 2. * elasticity.mu * e_zz;
+      response.energy = 0.5 * (caused * e + caused_zz * e_zz) +
                         initial_stress * e + initial_stress_zz * e_zz;
       response.stress    = initial_stress + caused;
       response.stress_zz = initial_stress_zz + caused_zz;
@@ -275,10 +311,8 @@ namespace NMM
                           const MaterialState         &state,
                           Response                    &response) const
     {
-      const SymmetricTensor<2, 2> e    = strain - state.plastic_strain;
-      const double                e_zz = -state.plastic_strain_zz;
-      set_elastic(e, e_zz, response);
-      response.state      = state;
+      response.state = state;
+      set_elastic(strain, response);
       response.dissipated = 0.;
 
       // The in-plane principal directions of the trial stress are p and q.
@@ -291,11 +325,12 @@ namespace NMM
       const std::array<double, 3> unsorted = {
         {mean + radius, mean - radius, response.stress_zz}};
       std::array<unsigned int, 3> order = {{0, 1, 2}};
-      std::stable_sort(order.begin(),
-                       order.end(),
-                       [&](const unsigned int i, const unsigned int j) {
-                         return unsorted[i] > unsorted[j];
-                       });
+      if (plane_state == PlaneState::plane_strain)
+        std::stable_sort(order.begin(),
+                         order.end(),
+                         [&](const unsigned int i, const unsigned int j) {
+                           return unsorted[i] > unsorted[j];
+                         });
       Vector3 trial;
       for (unsigned int i = 0; i < 3; ++i)
         trial[i] = unsorted[order[i]];
@@ -325,9 +360,7 @@ namespace NMM
       const double volume = (flow[0] + flow[1] + flow[2]) / 3.;
       response.state.equivalent_plastic_strain +=
         std::sqrt(2. / 3. * (flow * flow - 3. * volume * volume));
-      set_elastic(strain - response.state.plastic_strain,
-                  -response.state.plastic_strain_zz,
-                  response);
+      set_elastic(strain, response);
       // The stress is taken from the return map, since the difference of strains in set_elastic()
       // has cancellation errors.
       response.stress     = stress[0] * pp + stress[1] * qq;
@@ -388,11 +421,6 @@ namespace NMM
   MohrCoulombLaw::check(const std::string &where,
                         const PlaneState   plane_state) const
   {
-    AssertThrow(plane_state == PlaneState::plane_strain,
-                InputError("the law Mohr-Coulomb is for plane strain only",
-                           where,
-                           "set 'Model/Plane state = plane strain', or choose "
-                           "another law"));
     check_law_value(friction >= 0. && std::isfinite(friction),
                     "tan(phi) of the friction angle",
                     friction,
@@ -403,12 +431,15 @@ namespace NMM
                     cohesion,
                     where,
                     "give a stress of at least 0");
-    check_law_value(cohesion > 0. || friction > 0.,
+    const bool is_thin = plane_state == PlaneState::plane_stress;
+    check_law_value(cohesion > 0. || (friction > 0. && !is_thin),
                     "the cohesion",
                     cohesion,
                     where,
-                    "give a positive one, or a friction angle: a material "
-                    "needs some strength");
+                    is_thin ? "give a positive one: friction alone bears "
+                              "nothing in plane stress"
+                            : "give a positive one, or a friction angle: a "
+                              "material needs some strength");
     check_law_value(tensile_strength >= 0. && std::isfinite(tensile_strength),
                     "the tensile strength",
                     tensile_strength,
@@ -423,10 +454,10 @@ namespace NMM
 
 
   std::shared_ptr<const InelasticLaw>
-  MohrCoulombLaw::inelastic_law(const Material &material,
-                                const PlaneState) const
+  MohrCoulombLaw::inelastic_law(const Material  &material,
+                                const PlaneState plane_state) const
   {
-    return std::make_shared<MohrCoulomb>(*this, material);
+    return std::make_shared<MohrCoulomb>(*this, material, plane_state);
   }
 
 

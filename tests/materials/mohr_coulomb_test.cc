@@ -39,6 +39,10 @@ namespace
   }
 
 
+  constexpr PlaneState plane_states[] = {PlaneState::plane_strain,
+                                         PlaneState::plane_stress};
+
+
   Material
   rock(const MohrCoulombLaw &law)
   {
@@ -96,10 +100,13 @@ TEST(MohrCoulomb, ReturnsToTheYieldSurface)
 {
   std::mt19937 generator(5);
   unsigned int n_plastic = 0;
-  for (const MohrCoulombLaw &mohr_coulomb : plastic_laws())
+  for (unsigned int k = 0; k < 12; ++k)
   {
-    const Material m         = rock(mohr_coulomb);
-    const auto     inelastic = m.inelastic_law(PlaneState::plane_strain);
+    const MohrCoulombLaw mohr_coulomb = plastic_laws()[k / 2];
+    const PlaneState     plane_state  = plane_states[k % 2];
+    const bool           is_thin      = plane_state == PlaneState::plane_stress;
+    const Material       m            = rock(mohr_coulomb);
+    const auto           inelastic    = m.inelastic_law(plane_state);
     for (unsigned int i = 0; i < 2000; ++i)
     {
       MaterialState          state;
@@ -114,26 +121,31 @@ TEST(MohrCoulomb, ReturnsToTheYieldSurface)
 
         // sigma = C (epsilon - epsilon^p) in the plane and across it
         const PlaneElasticity C = m.plane_elasticity(PlaneState::plane_strain);
-        const SymmetricTensor<2, 2> e    = strain - r.state.plastic_strain;
-        const double                e_zz = -r.state.plastic_strain_zz;
-        const double                p    = C.lambda * (dealii::trace(e) + e_zz);
-        SymmetricTensor<2, 2>       hooke = 2. * C.mu * e;
+        const SymmetricTensor<2, 2> e = strain - r.state.plastic_strain;
+        const double          e_zz    = r.strain_zz - r.state.plastic_strain_zz;
+        const double          p       = C.lambda * (dealii::trace(e) + e_zz);
+        SymmetricTensor<2, 2> hooke   = 2. * C.mu * e;
         hooke[0][0] += p;
         hooke[1][1] += p;
         EXPECT_LT((r.stress - hooke).norm(), 1e-11);
         EXPECT_NEAR(r.stress_zz, p + 2. * C.mu * e_zz, 1e-11);
+        EXPECT_EQ(is_thin ? r.stress_zz : r.strain_zz, 0.);
+        EXPECT_NEAR(r.energy,
+                    0.5 * (r.stress * e + r.stress_zz * e_zz),
+                    1e-13);
 
         const double dissipated =
           r.stress * (r.state.plastic_strain - state.plastic_strain) +
           r.stress_zz * (r.state.plastic_strain_zz - state.plastic_strain_zz);
         EXPECT_GE(dissipated, -1e-12);
+        EXPECT_NEAR(r.dissipated, dissipated, 1e-12);
         EXPECT_GE(r.state.equivalent_plastic_strain,
                   state.equivalent_plastic_strain);
         state = r.state;
       }
     }
   }
-  EXPECT_GT(n_plastic, 10000u);
+  EXPECT_GT(n_plastic, 20000u);
 }
 
 
@@ -142,10 +154,10 @@ TEST(MohrCoulomb, ReturnsToTheYieldSurface)
 TEST(MohrCoulomb, NothingFlowsTwice)
 {
   std::mt19937 generator(6);
-  for (const MohrCoulombLaw &mohr_coulomb : plastic_laws())
+  for (unsigned int k = 0; k < 12; ++k)
   {
     const auto inelastic =
-      rock(mohr_coulomb).inelastic_law(PlaneState::plane_strain);
+      rock(plastic_laws()[k / 2]).inelastic_law(plane_states[k % 2]);
     for (unsigned int i = 0; i < 200; ++i)
     {
       const SymmetricTensor<2, 2> strain = random_strain(generator, 0.01);
@@ -168,10 +180,10 @@ TEST(MohrCoulomb, TangentAgainstDifferences)
   std::mt19937     generator(7);
   constexpr double step   = 1e-8;
   unsigned int     n_good = 0, n_kinks = 0;
-  for (const MohrCoulombLaw &mohr_coulomb : plastic_laws())
+  for (unsigned int k = 0; k < 12; ++k)
   {
     const auto inelastic =
-      rock(mohr_coulomb).inelastic_law(PlaneState::plane_strain);
+      rock(plastic_laws()[k / 2]).inelastic_law(plane_states[k % 2]);
     for (unsigned int i = 0; i < 500; ++i)
     {
       const SymmetricTensor<2, 2> strain = random_strain(generator, 0.005);
@@ -205,8 +217,8 @@ TEST(MohrCoulomb, TangentAgainstDifferences)
         ++n_kinks;
     }
   }
-  EXPECT_GT(n_good, 2000u);
-  EXPECT_LE(n_kinks, 2u);
+  EXPECT_GT(n_good, 4000u);
+  EXPECT_LE(n_kinks, 4u);
 }
 
 
@@ -287,6 +299,123 @@ TEST(MohrCoulomb, DissipationIsLargest)
 }
 
 
+/// Plane stress is the law of three dimensions, here that of plane strain with a shifted plastic
+/// strain, at the strain across the plane at which sigma_zz = 0. Three steps of a path, so that
+/// they begin in states with plastic strain.
+TEST(MohrCoulomb, PlaneStressAgainstSearchForTheStrainAcross)
+{
+  std::mt19937 generator(9);
+  unsigned int n_plastic[3] = {};
+  for (const MohrCoulombLaw &mohr_coulomb : plastic_laws())
+  {
+    if (mohr_coulomb.cohesion == 0.)
+      continue;
+    const Material m     = rock(mohr_coulomb);
+    const auto     thin  = m.inelastic_law(PlaneState::plane_stress);
+    const auto     solid = m.inelastic_law(PlaneState::plane_strain);
+    for (unsigned int i = 0; i < 300; ++i)
+    {
+      MaterialState state;
+      for (unsigned int step = 0; step < 3; ++step)
+      {
+        const SymmetricTensor<2, 2> strain = random_strain(generator, 0.005);
+        const auto                  found  = evaluate(*thin, strain, state);
+        const auto                  at     = [&](const double strain_zz) {
+          MaterialState shifted = state;
+          shifted.plastic_strain_zz -= strain_zz;
+          InelasticLaw::Response r = evaluate(*solid, strain, shifted);
+          r.state.plastic_strain_zz += strain_zz;
+          return r;
+        };
+        double low = -0.5, high = 0.5;
+        while (high - low > 1e-16)
+        {
+          const double middle = 0.5 * (low + high);
+          if (middle == low || middle == high)
+            break;
+          (at(middle).stress_zz < 0. ? low : high) = middle;
+        }
+        const auto expected = at(high);
+        // the strain is known to 1e-16, the moduli are 1000 Pa
+        ASSERT_LT((found.stress - expected.stress).norm(), 1e-11) << i;
+        EXPECT_LT(
+          (found.state.plastic_strain - expected.state.plastic_strain).norm(),
+          1e-13);
+        EXPECT_NEAR(found.state.plastic_strain_zz,
+                    expected.state.plastic_strain_zz,
+                    1e-13);
+        EXPECT_NEAR(found.strain_zz, high, 1e-13);
+        EXPECT_NEAR(found.energy, expected.energy, 1e-13);
+        EXPECT_NEAR(found.dissipated, expected.dissipated, 1e-13);
+        if (!found.is_elastic)
+        {
+          const double mean = 0.5 * dealii::trace(found.stress);
+          const double radius =
+            std::sqrt(mean * mean - dealii::determinant(found.stress));
+          ++n_plastic[(mean + radius > 1e-9) + (mean - radius > 1e-9)];
+        }
+        state = found.state;
+      }
+    }
+  }
+  // sigma_zz was the largest, the middle and the smallest principal stress
+  for (const unsigned int n : n_plastic)
+    EXPECT_GT(n, 200u);
+}
+
+
+/// Along one axis, the other one free: the strengths k = 2 c sqrt(N) in compression and k / N, or
+/// the cut-off, in tension. Both axes: k also where both press equally, and k / N where both pull.
+TEST(MohrCoulomb, StrengthInPlaneStress)
+{
+  constexpr double phi = 30., c = 1.;
+  const double     N =
+    (1. + std::sin(phi * degrees)) / (1. - std::sin(phi * degrees));
+  const double k = 2. * c * std::sqrt(N);
+  for (const double sigma_t : {1e20, 0.3})
+  {
+    const Material m         = rock(law(phi, c, 10., sigma_t));
+    const auto     inelastic = m.inelastic_law(PlaneState::plane_stress);
+    const double   tensile   = std::min(k / N, sigma_t);
+    for (const double axial : {-0.02, 0.02})
+    {
+      const double          strength = axial < 0. ? -k : tensile;
+      SymmetricTensor<2, 2> strain;
+      strain[1][1] = axial;
+      // the stress across the axis decreases with the strain across, up to both strengths
+      double low = -0.1, high = 0.1;
+      while (high - low > 1e-15)
+      {
+        strain[0][0] = 0.5 * (low + high);
+        (evaluate(*inelastic, strain).stress[0][0] < 0. ? low : high) =
+          strain[0][0];
+      }
+      // a strain of 1e-15 times 1000 Pa
+      EXPECT_NEAR(evaluate(*inelastic, strain).stress[1][1], strength, 1e-11);
+      strain[0][0]    = axial;
+      const auto both = evaluate(*inelastic, strain);
+      EXPECT_NEAR(both.stress[0][0], strength, 1e-12);
+      EXPECT_NEAR(both.stress[1][1], strength, 1e-12);
+      // in biaxial compression sigma_zz is the largest stress, towards which volume is lost
+      if (axial < 0.)
+      {
+        EXPECT_NEAR(both.state.plastic_strain_zz /
+                      dealii::trace(both.state.plastic_strain),
+                    -(1. + std::sin(10. * degrees)) /
+                      (1. - std::sin(10. * degrees)),
+                    1e-10);
+      }
+    }
+    // one pulls, the other one presses: N sigma_1 - sigma_3 = k or the cut-off
+    SymmetricTensor<2, 2> strain;
+    strain[0][0]     = 0.01;
+    strain[1][1]     = -0.01;
+    const auto mixed = evaluate(*inelastic, strain).stress;
+    EXPECT_NEAR(N * mixed[0][0] - mixed[1][1], k, 1e-12);
+  }
+}
+
+
 TEST(MohrCoulomb, NoStressIsReported)
 {
   SymmetricTensor<2, 2> strain;
@@ -341,7 +470,8 @@ TEST(MohrCoulomb, ParametersAreChecked)
 {
   EXPECT_NO_THROW(
     law(30., 1., 30., 0.).check("here", PlaneState::plane_strain));
-  EXPECT_THROW(law(30., 1., 0., 0.).check("here", PlaneState::plane_stress),
+  EXPECT_NO_THROW(law(30., 1., 0., 0.).check("here", PlaneState::plane_stress));
+  EXPECT_THROW(law(30., 0., 0., 0.).check("here", PlaneState::plane_stress),
                InputError);
   EXPECT_THROW(law(30., 1., 31., 0.).check("here", PlaneState::plane_strain),
                InputError);

@@ -49,6 +49,8 @@ namespace NMM
       dealii::SymmetricTensor<2, 2> stress;
       /// Stress sigma_zz across the plane, initial stress included [Pa].
       double stress_zz = 0.;
+      /// Strain across the plane [-]; 0 in plane strain.
+      double strain_zz = 0.;
       /// d sigma_ij / d epsilon_kl at [2i + j][2k + l], symmetric in i, j and in k, l [Pa]; not
       /// set if the step is elastic.
       double tangent[4][4];

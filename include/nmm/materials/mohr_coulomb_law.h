@@ -6,8 +6,7 @@
 namespace NMM
 {
   /**
-   * Elastic, perfectly plastic rock and soil in plane strain: Mohr-Coulomb's condition with a
-   * tension cut-off. With the principal stresses @f$\sigma_1\ge\sigma_2\ge\sigma_3@f$ (tension
+   * Elastic, perfectly plastic rock and soil: Mohr-Coulomb's condition with a tension cut-off. With the principal stresses @f$\sigma_1\ge\sigma_2\ge\sigma_3@f$ (tension
    * positive),
    * @f[ N\sigma_1-\sigma_3\le 2c\sqrt N,\quad N=\frac{1+\sin\phi}{1-\sin\phi};\qquad
    *     \sigma_1\le\sigma_t. @f]
@@ -23,6 +22,12 @@ namespace NMM
    * geometry instead. The tangent is the derivative of that rule, including the rotation of the
    * principal directions.
    *
+   * In plane stress sigma_zz = 0 is one of the principal stresses, and the stress returns in the
+   * plane of the two others to a hexagon, with the C of plane stress. Flow has
+   * components across the plane, which cause no stress and dissipate nothing. The hexagon's sides
+   * and their flows have the same order of directions, so that there is exactly one return for any
+   * psi <= phi. Without cohesion a material bears nothing in plane stress.
+   *
    * A cut-off above the apex c / tan(phi) has no effect.
    */
   class MohrCoulombLaw : public MaterialLaw
@@ -37,8 +42,7 @@ namespace NMM
     std::vector<Parameter>
     parameters() override;
 
-    /// @throws InputError naming a parameter and its value. The law is one of plane strain; plane
-    /// stress is refused.
+    /// @throws InputError naming a parameter and its value.
     void
     check(const std::string &where, PlaneState plane_state) const override;
 

@@ -21,7 +21,7 @@ namespace NMM
        "finite kinematics, for large strains",
        std::make_shared<NeoHookeLaw>()},
       {"Mohr-Coulomb",
-       "small kinematics, plane strain: elastic, perfectly plastic",
+       "elastic, perfectly plastic; finite kinematics: for small strains",
        std::make_shared<MohrCoulombLaw>()}};
     return laws;
   }

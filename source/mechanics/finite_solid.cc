@@ -1,4 +1,3 @@
-#include <nmm/base/exceptions.h>
 #include <nmm/mechanics/solid_term.h>
 
 #include <algorithm>
@@ -13,12 +12,7 @@ namespace NMM
     : SolidTerm(elasticity, std::move(loading), std::move(mass))
     , has_follower(!elasticity.tangent_is_symmetric())
   {
-    AssertThrow(!elasticity.is_inelastic(),
-                InputError("a material is inelastic, which is possible with "
-                           "small displacements only",
-                           "the equations of large displacements",
-                           "choose another law, or small kinematics"));
-    set_fingerprint();
+    finish_construction();
   }
 
 
@@ -37,7 +31,7 @@ namespace NMM
   FiniteSolid::properties() const
   {
     return {/* is_linear = */ false,
-            elastic->tangent_is_symmetric(),
+            elastic->tangent_is_symmetric() && inelastic == nullptr,
             /* is_symmetric_between = */ false};
   }
 
@@ -48,7 +42,11 @@ namespace NMM
     if (!trial.is_conserving)
     {
       set_amplitudes(amplitudes_at(trial.end_time));
-      return elastic->assemble(*trial.end, 1., trial.tangent, trial.increment);
+      // the mixed integration point method is one for elastic materials
+      return elastic->assemble(*trial.end,
+                               1.,
+                               trial.tangent,
+                               inelastic ? nullptr : trial.increment);
     }
     const double         t_0 = trial.begin_time, t_1 = trial.end_time;
     const LoadAmplitudes first = amplitudes_at(t_0), last = amplitudes_at(t_1);
@@ -83,8 +81,20 @@ namespace NMM
     forces.scale                = elastic->force_scale();
     forces.strain_energy        = elastic->energies().strain;
     forces.energy_of_conditions = elastic->energies().conditions;
-    if (trial.tangent != Tangent::none)
+    const bool with_tangent     = trial.tangent != Tangent::none;
+    if (with_tangent)
       forces.tangent = &elastic->tangent();
+    if (!inelastic)
+      return Deformation::admissible;
+    if (inelastic->assemble(*trial.end,
+                            with_tangent,
+                            is_between(trial) ? trial.begin : nullptr) !=
+        Deformation::admissible)
+      return Deformation::inverted;
+    sum += inelastic->residual();
+    forces.strain_energy += inelastic->totals().energy;
+    if (with_tangent)
+      forces.tangent = &inelastic->add_to(elastic->tangent());
     return Deformation::admissible;
   }
 
@@ -159,9 +169,17 @@ namespace NMM
   double
   FiniteSolid::work_of_supports_between(const Trial &step, const Vector &)
   {
-    return loads_change() &&
-               assemble_elasticity(step) == Deformation::admissible
-             ? elastic->energies().work_of_conditions
-             : 0.;
+    if (!loads_change() || assemble_elasticity(step) != Deformation::admissible)
+      return 0.;
+    double work = elastic->energies().work_of_conditions;
+    if (inelastic)
+    {
+      (void)inelastic->assemble(*step.end,
+                                /* with_tangent = */ false,
+                                step.begin);
+      work +=
+        work_on_inelastic(inelastic->totals(), step.begin_time, step.end_time);
+    }
+    return work;
   }
 } // namespace NMM

@@ -9,6 +9,7 @@
 #include <limits>
 #include <mechanics/finite_elasticity_data.h>
 #include <mechanics/nodal_values.h>
+#include <mechanics/rotated_frame.h>
 #include <sstream>
 
 namespace NMM
@@ -21,14 +22,23 @@ namespace NMM
     using Law  = std::shared_ptr<const InelasticLaw>;
     using Site = EdgeTables::Site;
 
-    /// Response of the law at a quadrature point or on a side of a weak point, minus that of
-    /// Hooke's law.
+    /// Displacement gradients at a point [-]; the one at the beginning is used in conserving steps
+    /// only.
+    struct Gradients
+    {
+      dealii::Tensor<2, 2> end, begin;
+    };
+
+    /// Response of the law at a quadrature point or on a side of a weak point, minus that of the
+    /// elastic law of FiniteElasticity.
     struct Excess
     {
-      dealii::SymmetricTensor<2, 2> stress;
-      double                        energy;
-      double                        tangent[4][4];
-      bool                          has_tangent;
+      dealii::Tensor<2, 2> stress;
+      double               energy;
+      double               tangent[4][4];
+      bool                 has_tangent;
+      /// P, from which nothing is subtracted.
+      dealii::Tensor<2, 2> whole_stress;
     };
 
     /// An element at which an inelastic law is evaluated: in the element itself, or on its sites of
@@ -43,7 +53,7 @@ namespace NMM
       std::size_t first_state;
     };
 
-    explicit Data(const FiniteElasticity::Data &elasticity);
+    Data(const FiniteElasticity::Data &elasticity, Kinematics kinematics);
 
     void
     set_laws(const std::vector<Material> &materials);
@@ -57,15 +67,38 @@ namespace NMM
       return region_to_law[region] != nullptr;
     }
 
-    /// Evaluate the law at a point with the displacement gradient @p gradient and the index
-    /// @p state of its material state. Clears is_admissible if the law has no stress.
+    /// Evaluate the law at a point whose material state has the index @p state. Clears
+    /// is_admissible if the law has no stress.
     void
-    evaluate(unsigned int                region,
-             const dealii::Tensor<2, 2> &gradient,
-             std::size_t                 state,
-             bool                        with_tangent,
-             Excess                     &excess,
-             InelasticLaw::Response     &response);
+    evaluate(unsigned int            region,
+             const Gradients        &gradients,
+             std::size_t             state,
+             bool                    with_tangent,
+             Excess                 &excess,
+             InelasticLaw::Response &response);
+
+    /// The parts of evaluate() for both kinematics, but for admissible stresses only.
+    Deformation
+    evaluate_small(unsigned int            region,
+                   const Gradients        &gradients,
+                   std::size_t             state,
+                   bool                    with_tangent,
+                   Excess                 &excess,
+                   InelasticLaw::Response &response) const;
+
+    Deformation
+    evaluate_rotated(unsigned int            region,
+                     const Gradients        &gradients,
+                     std::size_t             state,
+                     bool                    with_tangent,
+                     Excess                 &excess,
+                     InelasticLaw::Response &response) const;
+
+    /// Subtract the elastic law in a conserving step, or at the end of a step.
+    Deformation
+    subtract_elastic(unsigned int     region,
+                     const Gradients &gradients,
+                     Excess          &excess) const;
 
     void
     add_volume(const Element &item, LocalSystem &local);
@@ -79,6 +112,8 @@ namespace NMM
                     LocalSystem   &local);
 
     const FiniteElasticity::Data *elastic;
+    Kinematics                    kinematics;
+    bool                          is_conserving = false;
     std::vector<Law>              region_to_law;
     std::vector<PlaneElasticity>  region_to_elasticity;
     std::vector<Element>          elements;
@@ -87,15 +122,17 @@ namespace NMM
     bool is_admissible = true;
 
     CoverMatrixAssembler              assembler;
-    std::vector<dealii::Tensor<1, 2>> nodal;
+    std::vector<dealii::Tensor<1, 2>> nodal, nodal_begin;
     Matrix                            matrix, sum;
     Vector                            residual;
     Totals                            totals;
   };
 
 
-  InelasticTerms::Data::Data(const FiniteElasticity::Data &elasticity)
+  InelasticTerms::Data::Data(const FiniteElasticity::Data &elasticity,
+                             const Kinematics              kinematics)
     : elastic(&elasticity)
+    , kinematics(kinematics)
     , assembler(*elasticity.covers, *elasticity.constraints)
   {
     set_laws(elasticity.problem->materials);
@@ -166,33 +203,128 @@ namespace NMM
 
 
   void
-  InelasticTerms::Data::evaluate(const unsigned int          region,
-                                 const dealii::Tensor<2, 2> &gradient,
-                                 const std::size_t           state,
-                                 const bool                  with_tangent,
-                                 Excess                     &excess,
-                                 InelasticLaw::Response     &response)
+  InelasticTerms::Data::evaluate(const unsigned int      region,
+                                 const Gradients        &gradients,
+                                 const std::size_t       state,
+                                 const bool              with_tangent,
+                                 Excess                 &excess,
+                                 InelasticLaw::Response &response)
   {
-    const dealii::SymmetricTensor<2, 2> strain = dealii::symmetrize(gradient);
-    if (region_to_law[region]->evaluate(strain, accepted[state], response) !=
+    const auto evaluate_it = kinematics == Kinematics::small
+                               ? &Data::evaluate_small
+                               : &Data::evaluate_rotated;
+    if ((this->*evaluate_it)(
+          region, gradients, state, with_tangent, excess, response) !=
         Deformation::admissible)
     {
       is_admissible = false;
       response      = InelasticLaw::Response();
+      excess        = Excess();
     }
     current[state] = response.state;
+  }
 
+
+  Deformation
+  InelasticTerms::Data::evaluate_small(const unsigned int      region,
+                                       const Gradients        &gradients,
+                                       const std::size_t       state,
+                                       const bool              with_tangent,
+                                       Excess                 &excess,
+                                       InelasticLaw::Response &response) const
+  {
+    const dealii::SymmetricTensor<2, 2> strain =
+      dealii::symmetrize(gradients.end);
+    if (region_to_law[region]->evaluate(strain, accepted[state], response) !=
+        Deformation::admissible)
+      return Deformation::inverted;
     const PlaneElasticity              &c     = region_to_elasticity[region];
-    const dealii::SymmetricTensor<2, 2> hooke = c.stress(gradient);
-    excess.stress                             = response.stress - hooke;
+    const dealii::SymmetricTensor<2, 2> hooke = c.stress(gradients.end);
+    excess.whole_stress                       = response.stress;
+    excess.stress      = dealii::Tensor<2, 2>(response.stress - hooke);
     excess.energy      = response.energy - 0.5 * (hooke * strain);
     excess.has_tangent = with_tangent && !response.is_elastic;
     if (!excess.has_tangent)
-      return;
+      return Deformation::admissible;
     hooke_moduli(c, excess.tangent);
     for (unsigned int a = 0; a < 4; ++a)
       for (unsigned int b = 0; b < 4; ++b)
         excess.tangent[a][b] = response.tangent[a][b] - excess.tangent[a][b];
+    return Deformation::admissible;
+  }
+
+
+  Deformation
+  InelasticTerms::Data::evaluate_rotated(const unsigned int      region,
+                                         const Gradients        &gradients,
+                                         const std::size_t       state,
+                                         const bool              with_tangent,
+                                         Excess                 &excess,
+                                         InelasticLaw::Response &response) const
+  {
+    const InelasticLaw &law = *region_to_law[region];
+    RotatedFrame        begin, end;
+    if (end.reinit(gradients.end) != Deformation::admissible ||
+        law.evaluate(end.strain(), accepted[state], response) !=
+          Deformation::admissible)
+      return Deformation::inverted;
+    dealii::SymmetricTensor<2, 2> T = response.stress;
+    if (is_conserving)
+    {
+      InelasticLaw::Response first;
+      if (begin.reinit(gradients.begin) != Deformation::admissible ||
+          law.evaluate(begin.strain(), accepted[state], first) !=
+            Deformation::admissible)
+        return Deformation::inverted;
+      T = 0.5 * (T + first.stress);
+    }
+    const RotatedStress stress(is_conserving ? begin : end, end, T);
+    excess.whole_stress = stress.first_stress();
+    excess.energy       = response.energy;
+    excess.has_tangent  = with_tangent;
+    if (with_tangent)
+    {
+      double D[4][4];
+      hooke_moduli(region_to_elasticity[region], D);
+      stress.moduli(response.is_elastic ? D : response.tangent, excess.tangent);
+    }
+    return subtract_elastic(region, gradients, excess);
+  }
+
+
+  Deformation
+  InelasticTerms::Data::subtract_elastic(const unsigned int region,
+                                         const Gradients   &gradients,
+                                         Excess            &excess) const
+  {
+    const auto subtract = [&](const auto &elastic_response) {
+      excess.stress = excess.whole_stress - elastic_response.stress;
+      if (excess.has_tangent)
+        for (unsigned int a = 0; a < 4; ++a)
+          for (unsigned int b = 0; b < 4; ++b)
+            excess.tangent[a][b] -= elastic_response.tangent[a][b];
+    };
+    if (is_conserving)
+    {
+      ConservingLaw::Response response;
+      const Deformation       state =
+        elastic->region_to_conserving_law[region].evaluate(gradients.begin,
+                                                           gradients.end,
+                                                           excess.has_tangent,
+                                                           /* damping = */ 0.,
+                                                           response);
+      subtract(response);
+      return state;
+    }
+    HyperelasticLaw::Response  response;
+    const HyperelasticLaw     &law   = *elastic->region_to_law[region];
+    const dealii::Tensor<2, 2> F     = with_identity(gradients.end);
+    const Deformation          state = excess.has_tangent
+                                         ? law.evaluate(F, response)
+                                         : law.evaluate_stress(F, response);
+    excess.energy -= response.energy;
+    subtract(response);
+    return state;
   }
 
 
@@ -205,6 +337,10 @@ namespace NMM
     const ElementTables::View table = (*elastic->tables)(item.element);
     LocalDisplacement         u;
     u.gather(covers.covers(item.element), nodal);
+    LocalDisplacement begin;
+    if (is_conserving)
+      begin.gather(covers.covers(item.element), nodal_begin);
+    Gradients              gradients;
     Excess                 excess;
     InelasticLaw::Response response;
     double                 forces[2 * WeightFunctions::max_per_cell] = {};
@@ -213,19 +349,17 @@ namespace NMM
       const double(*g)[2]      = table.gradients + q * n;
       const double      weight = table.weights[q];
       const std::size_t state  = item.first_state + q;
-      evaluate(region,
-               displacement_gradient(n, u.values, g),
-               state,
-               local.with_matrix,
-               excess,
-               response);
+      gradients.end            = displacement_gradient(n, u.values, g);
+      if (is_conserving)
+        gradients.begin = displacement_gradient(n, begin.values, g);
+      evaluate(region, gradients, state, local.with_matrix, excess, response);
       totals.energy += weight * excess.energy;
       totals.dissipated += weight * response.dissipated;
       totals.n_yielding += !response.is_elastic;
       if (response.state.equivalent_plastic_strain > 0.)
         totals.yielded_area += weight;
-      add_stress(n, g, weight * dealii::Tensor<2, 2>(excess.stress), local.rhs);
-      add_stress(n, g, weight * dealii::Tensor<2, 2>(response.stress), forces);
+      add_stress(n, g, weight * excess.stress, local.rhs);
+      add_stress(n, g, weight * excess.whole_stress, forces);
       if (excess.has_tangent)
         add_moduli(n, g, weight, excess.tangent, local.matrix, 2 * n);
     }
@@ -246,8 +380,10 @@ namespace NMM
     const bool               is_absent =
       elastic->is_absent(item.element) ||
       (site.neighbor != invalid_index && elastic->is_absent(site.neighbor));
-    LocalDisplacement u;
+    LocalDisplacement u, begin;
     elastic->gather(site, nodal, u);
+    if (is_conserving)
+      elastic->gather(site, nodal_begin, begin);
     for (unsigned int q = site.first_point; q < site.last_point; ++q)
     {
       const WeakPoint &point = edges.weak_points[q];
@@ -263,14 +399,13 @@ namespace NMM
         const unsigned int region = point.sides[s].region;
         if (!is_inelastic(region))
           continue;
+        Gradients              gradients;
         Excess                 excess;
         InelasticLaw::Response response;
-        evaluate(region,
-                 terms.gradient(u, s),
-                 state,
-                 local.with_matrix,
-                 excess,
-                 response);
+        gradients.end = terms.gradient(u, s);
+        if (is_conserving)
+          gradients.begin = terms.gradient(begin, s);
+        evaluate(region, gradients, state, local.with_matrix, excess, response);
         totals.n_yielding += !response.is_elastic;
         terms.fluxes[s].traction = excess.stress * point.normal;
         if (excess.has_tangent)
@@ -285,8 +420,9 @@ namespace NMM
   }
 
 
-  InelasticTerms::InelasticTerms(const FiniteElasticity &elasticity)
-    : data(std::make_unique<Data>(*elasticity.data))
+  InelasticTerms::InelasticTerms(const FiniteElasticity &elasticity,
+                                 const Kinematics        kinematics)
+    : data(std::make_unique<Data>(*elasticity.data, kinematics))
   {
   }
 
@@ -295,11 +431,18 @@ namespace NMM
 
 
   Deformation
-  InelasticTerms::assemble(const Vector &u, const bool with_tangent)
+  InelasticTerms::assemble(const Vector &u,
+                           const bool    with_tangent,
+                           const Vector *begin)
   {
     Data              &d      = *data;
     const CoverSystem &covers = *d.elastic->covers;
     read_nodal_values(covers, u, d.nodal);
+    d.is_conserving = begin != nullptr;
+    Assert(!d.is_conserving || d.kinematics == Kinematics::finite,
+           dealii::ExcNotImplemented());
+    if (d.is_conserving)
+      read_nodal_values(covers, *begin, d.nodal_begin);
     d.assembler.reset(with_tangent);
     d.totals = Totals();
     d.totals.support_work.resize(d.elastic->problem->boundary_conditions.size(),
@@ -374,7 +517,7 @@ namespace NMM
   InelasticTerms::add_to(const Matrix &elastic_stiffness)
   {
     Data &d = *data;
-    if (d.totals.n_yielding == 0)
+    if (d.totals.n_yielding == 0 && d.kinematics == Kinematics::small)
       return elastic_stiffness;
     d.sum.copy_from(elastic_stiffness);
     d.sum.add(1., d.matrix);
@@ -474,10 +617,24 @@ namespace NMM
     {
       const dealii::Tensor<2, 2> gradient =
         displacement_gradient(n, u.values, table.gradients + q * n);
-      if (law.evaluate(dealii::symmetrize(gradient),
+      const bool   is_finite = d.kinematics == Kinematics::finite;
+      RotatedFrame frame;
+      if ((is_finite && frame.reinit(gradient) != Deformation::admissible) ||
+          law.evaluate(is_finite ? frame.strain()
+                                 : dealii::symmetrize(gradient),
                        d.accepted[it->first_state + q],
                        response) != Deformation::admissible)
         response.stress[0][0] = std::numeric_limits<double>::quiet_NaN();
+      else if (is_finite)
+      {
+        const double area = dealii::determinant(frame.F);
+        response.stress =
+          dealii::symmetrize(
+            RotatedStress(frame, frame, response.stress).first_stress() *
+            dealii::transpose(frame.F)) /
+          (area * (1. + response.strain_zz));
+        response.stress_zz /= area;
+      }
       result.push_back({response.stress,
                         response.stress_zz,
                         response.state.equivalent_plastic_strain});

@@ -1,7 +1,6 @@
 #include <nmm/mechanics/solid_term.h>
 
 #include <algorithm>
-#include <base/archive.h>
 #include <cmath>
 #include <mechanics/load_amplitudes.h>
 
@@ -18,9 +17,7 @@ namespace NMM
                            &with_loads.forces,
                            &with_supports.forces})
       vector->reinit(layout().locally_owned, layout().communicator);
-    if (elasticity.is_inelastic())
-      inelastic = std::make_unique<InelasticTerms>(elasticity);
-    set_fingerprint();
+    finish_construction();
   }
 
 
@@ -73,92 +70,6 @@ namespace NMM
     return {/* is_linear = */ inelastic == nullptr,
             is_symmetric,
             /* is_symmetric_between = */ is_symmetric};
-  }
-
-
-  InelasticTerms *
-  SmallSolid::inelastic_terms() const
-  {
-    return inelastic.get();
-  }
-
-
-  void
-  SmallSolid::begin_step(const StepBegin &step)
-  {
-    if (!inelastic || step.is_at_rest)
-      return;
-    // the result is admissible, because an accepted state always has a stress
-    (void)inelastic->assemble(step.u, /* with_tangent = */ false);
-    forces_at_begin = inelastic->residual();
-    totals_at_begin = inelastic->totals();
-    begin_of_step   = step.u;
-    time_at_begin   = step.time;
-  }
-
-
-  StepWork
-  SmallSolid::commit(const Trial &step)
-  {
-    StepWork work = SolidTerm::commit(step);
-    if (!inelastic)
-      return work;
-    inelastic->accept(*step.end);
-    work.dissipated += step.begin == nullptr ? inelastic->totals().dissipated
-                                             : dissipated_in(step);
-    return work;
-  }
-
-
-  double
-  SmallSolid::dissipated_in(const Trial &step) const
-  {
-    Vector motion(*step.end), force(inelastic->residual());
-    motion -= begin_of_step;
-    force.sadd(0.5, 0.5, forces_at_begin);
-    Vector owned_motion(force);
-    owned_motion                         = motion;
-    const double                  t      = step.end_time;
-    const InelasticTerms::Totals &totals = inelastic->totals();
-    return force * owned_motion - (totals.energy - totals_at_begin.energy) +
-           0.5 * (work_on_inelastic(totals_at_begin, time_at_begin, t) +
-                  work_on_inelastic(totals, time_at_begin, t));
-  }
-
-
-  double
-  SmallSolid::work_on_inelastic(const InelasticTerms::Totals &totals,
-                                const double                  t_0,
-                                const double                  t_1) const
-  {
-    const LoadAmplitudes begin = amplitudes_at(t_0), end = amplitudes_at(t_1);
-    double               work = 0.;
-    for (unsigned int c = 0; c < totals.support_work.size(); ++c)
-      work += totals.support_work[c] *
-              (internal::amplitude(end.boundary_conditions, c) -
-               internal::amplitude(begin.boundary_conditions, c));
-    return work;
-  }
-
-
-  void
-  SmallSolid::save(internal::ByteWriter &archive) const
-  {
-    if (!inelastic)
-      return;
-    std::vector<char> state = inelastic->internal_state();
-    archive.transfer(state.data(), state.size());
-  }
-
-
-  void
-  SmallSolid::restore(internal::ByteReader &archive)
-  {
-    if (!inelastic)
-      return;
-    std::vector<char> state(archive.n_left());
-    archive.transfer(state.data(), state.size());
-    inelastic->restore_internal_state(state);
   }
 
 
@@ -282,20 +193,6 @@ namespace NMM
     set_amplitudes(amplitudes);
     elastic->assemble_linearized(u, 1.);
     return elastic->energies().conditions;
-  }
-
-
-  double
-  SmallSolid::work_of_supports(const Vector &u,
-                               const double  t,
-                               const double  t_0,
-                               const double  t_1)
-  {
-    const double work = SolidTerm::work_of_supports(u, t, t_0, t_1);
-    if (!inelastic || !loads_change())
-      return work;
-    (void)inelastic->assemble(u, /* with_tangent = */ false);
-    return work + work_on_inelastic(inelastic->totals(), t_0, t_1);
   }
 
 

@@ -2,6 +2,7 @@
 #include <nmm/mechanics/solid_term.h>
 
 #include <algorithm>
+#include <base/archive.h>
 #include <cmath>
 #include <mechanics/load_amplitudes.h>
 #include <mechanics/solid_hash.h>
@@ -67,8 +68,10 @@ namespace NMM
 
 
   void
-  SolidTerm::set_fingerprint()
+  SolidTerm::finish_construction()
   {
+    if (elastic->is_inelastic())
+      inelastic = std::make_unique<InelasticTerms>(*elastic, kinematics());
     internal::Hash hash_of_solid =
       internal::hash_of_solid(elastic->cover_system(),
                               elastic->elasticity_problem());
@@ -192,8 +195,13 @@ namespace NMM
       return 0.;
     const LoadAmplitudes begin = amplitudes_at(t_0), end = amplitudes_at(t_1);
     LoadAmplitudes       plus = amplitudes_at(t), minus = plus;
-    double               largest = 0.;
-    const auto           spread  = [&](const std::vector<double> &from,
+    double               largest = 0., work = 0.;
+    if (inelastic)
+    {
+      (void)inelastic->assemble(u, /* with_tangent = */ false);
+      work = work_on_inelastic(inelastic->totals(), t_0, t_1);
+    }
+    const auto spread = [&](const std::vector<double> &from,
                             const std::vector<double> &to,
                             std::vector<double>       &up,
                             std::vector<double>       &down) {
@@ -215,9 +223,24 @@ namespace NMM
            end.fixed_points,
            plus.fixed_points,
            minus.fixed_points);
-    return largest > 0.
-             ? energy_of_conditions(u, plus) - energy_of_conditions(u, minus)
-             : 0.;
+    return largest > 0. ? work + energy_of_conditions(u, plus) -
+                            energy_of_conditions(u, minus)
+                        : work;
+  }
+
+
+  double
+  SolidTerm::work_on_inelastic(const InelasticTerms::Totals &totals,
+                               const double                  t_0,
+                               const double                  t_1) const
+  {
+    const LoadAmplitudes begin = amplitudes_at(t_0), end = amplitudes_at(t_1);
+    double               work = 0.;
+    for (unsigned int c = 0; c < totals.support_work.size(); ++c)
+      work += totals.support_work[c] *
+              (internal::amplitude(end.boundary_conditions, c) -
+               internal::amplitude(begin.boundary_conditions, c));
+    return work;
   }
 
 
@@ -259,15 +282,97 @@ namespace NMM
   }
 
 
+  void
+  SolidTerm::begin_step(const StepBegin &step)
+  {
+    if (!inelastic || step.is_at_rest)
+      return;
+    // the result is admissible, because an accepted state always has a stress
+    (void)inelastic->assemble(step.u, /* with_tangent = */ false);
+    forces_at_begin = inelastic->residual();
+    totals_at_begin = inelastic->totals();
+    begin_of_step   = step.u;
+    time_at_begin   = step.time;
+  }
+
+
   StepWork
   SolidTerm::commit(const Trial &step)
   {
+    StepWork work;
+    if (step.begin != nullptr)
+    {
+      work = work_of(step);
+      if (inelastic)
+        work.dissipated += accept_inelastic(step);
+    }
+    else if (inelastic)
+    {
+      inelastic->accept(*step.end);
+      work.dissipated = inelastic->totals().dissipated;
+    }
+    return work;
+  }
+
+
+  double
+  SolidTerm::accept_inelastic(const Trial &step)
+  {
+    const double t = step.end_time;
+    Vector       force(forces_at_begin);
+    double       work = 0.;
+    if (is_between(step))
+    {
+      (void)inelastic->assemble(*step.end,
+                                /* with_tangent = */ false,
+                                step.begin);
+      force = inelastic->residual();
+      work  = work_on_inelastic(inelastic->totals(), time_at_begin, t);
+      inelastic->accept(*step.end);
+    }
+    else
+    {
+      inelastic->accept(*step.end);
+      force.sadd(0.5, 0.5, inelastic->residual());
+      work = 0.5 * (work_on_inelastic(totals_at_begin, time_at_begin, t) +
+                    work_on_inelastic(inelastic->totals(), time_at_begin, t));
+    }
+    Vector motion(*step.end), owned_motion(force);
+    motion -= begin_of_step;
+    owned_motion = motion;
+    return force * owned_motion + work -
+           (inelastic->totals().energy - totals_at_begin.energy);
+  }
+
+
+  void
+  SolidTerm::save(internal::ByteWriter &archive) const
+  {
+    if (!inelastic)
+      return;
+    std::vector<char> state = inelastic->internal_state();
+    archive.transfer(state.data(), state.size());
+  }
+
+
+  void
+  SolidTerm::restore(internal::ByteReader &archive)
+  {
+    if (!inelastic)
+      return;
+    std::vector<char> state(archive.n_left());
+    archive.transfer(state.data(), state.size());
+    inelastic->restore_internal_state(state);
+  }
+
+
+  StepWork
+  SolidTerm::work_of(const Trial &step)
+  {
     const double t_0 = step.begin_time, t_1 = step.end_time;
     StepWork     work;
-    if (step.begin == nullptr)
-      return work;
-    Vector begin(layout().locally_owned, layout().communicator);
-    Vector change(begin), loads(begin);
+    Vector       begin(layout().locally_owned, layout().communicator);
+    Vector       change(begin), loads(begin);
     begin  = *step.begin;
     change = *step.end;
     change -= begin;

@@ -138,11 +138,16 @@ namespace NMM
 
 
       FieldEvaluator::StressLaw
-      inelastic(const InelasticTerms       &terms,
-                const CoverSystem          &covers,
-                const QuadratureCollection &quadrature,
-                const ElasticityProblem    &problem)
+      of(const SolidTerm &solid, const QuadratureCollection &quadrature)
       {
+        const bool is_finite = solid.kinematics() == Kinematics::finite;
+        if (solid.inelastic_terms() == nullptr)
+          return is_finite ? finite(solid.elasticity())
+                           : FieldEvaluator::StressLaw();
+        const InelasticTerms    &terms  = *solid.inelastic_terms();
+        const CoverSystem       &covers = solid.elasticity().cover_system();
+        const ElasticityProblem &problem =
+          solid.elasticity().elasticity_problem();
         const auto [first, last] = covers.locally_owned_elements();
         std::vector<std::optional<LinearFit<Stress>>> in_plane(last - first);
         std::vector<LinearFit<double>>                across(last - first);
@@ -165,6 +170,8 @@ namespace NMM
                 across   = std::move(across),
                 &mesh,
                 &problem,
+                elastic = is_finite ? finite(solid.elasticity())
+                                    : FieldEvaluator::StressLaw(),
                 region_to_material =
                   problem.region_to_material(mesh.physical_mesh())](
                  const unsigned int  element,
@@ -173,6 +180,8 @@ namespace NMM
           const unsigned int i = element - first;
           if (in_plane[i])
             return {(*in_plane[i])(xi), across[i](xi)};
+          if (elastic)
+            return elastic(element, xi, gradient);
           const Material &material =
             problem.materials[region_to_material[mesh.region(element)]];
           const Stress strain = dealii::symmetrize(gradient);

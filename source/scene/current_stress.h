@@ -1,8 +1,7 @@
 #ifndef nmm_source_scene_current_stress_h
 #define nmm_source_scene_current_stress_h
 
-#include <nmm/mechanics/finite_elasticity.h>
-#include <nmm/mechanics/inelastic_terms.h>
+#include <nmm/mechanics/solid_term.h>
 #include <nmm/output/field_samples.h>
 #include <nmm/quadrature/element_quadrature.h>
 
@@ -20,14 +19,12 @@ namespace NMM
       FieldEvaluator::StressLaw
       finite(const FiniteElasticity &elasticity);
 
-      /// The stress at quadrature points in the last assembly of @p terms, fitted by a linear
-      /// function in each element; where the material is elastic, Hooke's law. Covers and problem
-      /// must outlive the law.
+      /// The stress in @p solid; null if it is linear in the displacements. Where the material is
+      /// inelastic, the stress at quadrature points in the last assembly of the solid's inelastic
+      /// terms, fitted by a linear function in each element; elsewhere finite() or Hooke's law. The
+      /// solid must outlive the law.
       FieldEvaluator::StressLaw
-      inelastic(const InelasticTerms       &terms,
-                const CoverSystem          &covers,
-                const QuadratureCollection &quadrature,
-                const ElasticityProblem    &problem);
+      of(const SolidTerm &solid, const QuadratureCollection &quadrature);
 
       /// The equivalent plastic strain [-], fitted in the same way. It is 0 where the material is
       /// elastic.

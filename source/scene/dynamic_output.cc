@@ -285,27 +285,22 @@ namespace NMM
       field =
         std::make_unique<DisplacementField>(*covers, problem, displacement());
       recovery = std::make_unique<StressRecovery>(*field, aggregation);
-      FieldEvaluator::StressLaw law;
-      if (scene.parameters().model.kinematics == Kinematics::finite)
-        law = CurrentStress::finite(*elasticity);
-      else if (inelastic_terms() != nullptr)
-      {
-        // Assemble again, since the last assembly may be that of a step that failed.
+      // Assemble again, since the last assembly may be that of a step that failed.
+      if (inelastic_terms() != nullptr)
         (void)inelastic_terms()->assemble(displacement(),
                                           /* with_tangent = */ false);
-        law = CurrentStress::inelastic(*inelastic_terms(),
-                                       *covers,
-                                       *quadrature,
-                                       problem);
-      }
       Vector relevant(covers->locally_owned_dofs(2),
                       covers->locally_relevant_dofs(2),
                       communicator);
       relevant = velocity();
       velocity_field =
         std::make_unique<DisplacementField>(*covers, problem, relevant);
-      evaluator = std::make_unique<FieldEvaluator>(
-        *field, *recovery, problem, law, velocity_field.get());
+      evaluator =
+        std::make_unique<FieldEvaluator>(*field,
+                                         *recovery,
+                                         problem,
+                                         CurrentStress::of(*model, *quadrature),
+                                         velocity_field.get());
       if (inelastic_terms() != nullptr)
         evaluator->set_plastic_strain(CurrentStress::plastic_strain(
           *inelastic_terms(), *covers, *quadrature));

@@ -253,14 +253,14 @@ namespace NMM
     NonlinearAnalysis::add_step(HistoryRow row, const Vector &solution)
     {
       field = std::make_unique<DisplacementField>(*covers, problem, solution);
+      const InelasticTerms *terms = inelastic_terms();
       if (!has_large_displacements())
-        row.strain_energy = small_strain_energy();
-      if (const InelasticTerms *terms = inelastic_terms())
-      {
-        row.strain_energy += problem.thickness * terms->totals().energy;
+        row.strain_energy =
+          small_strain_energy() +
+          (terms == nullptr ? 0. : problem.thickness * terms->totals().energy);
+      if (terms != nullptr)
         row.plastic = HistoryRow::Plastic{plastic_dissipation,
                                           terms->totals().yielded_area};
-      }
       double largest = 0.;
       for (const auto &[element, xi] : output_points)
         largest = std::max(largest, field->displacement(element, xi).norm());
@@ -331,15 +331,13 @@ namespace NMM
       if (inelastic_terms() != nullptr)
         (void)solid->inelastic_terms()->assemble(last_solution,
                                                  /* with_tangent = */ false);
-      evaluator = std::make_unique<FieldEvaluator>(
-        *field,
-        *recovery,
-        problem,
-        has_large_displacements() ? CurrentStress::finite(*finite)
-        : inelastic_terms() != nullptr
-          ? CurrentStress::inelastic(
-              *inelastic_terms(), *covers, *quadrature, problem)
-          : FieldEvaluator::StressLaw());
+      evaluator =
+        std::make_unique<FieldEvaluator>(*field,
+                                         *recovery,
+                                         problem,
+                                         solid ? CurrentStress::of(*solid,
+                                                                   *quadrature)
+                                               : FieldEvaluator::StressLaw());
       if (inelastic_terms() != nullptr)
         evaluator->set_plastic_strain(CurrentStress::plastic_strain(
           *inelastic_terms(), *covers, *quadrature));

@@ -325,19 +325,15 @@ namespace NMM
       relevant = shown_displacement;
       field = std::make_unique<DisplacementField>(*covers, problem, relevant);
       recovery = std::make_unique<StressRecovery>(*field, aggregation);
-      FieldEvaluator::StressLaw law;
-      if (scene.parameters().model.kinematics == Kinematics::finite)
-        law = CurrentStress::finite(*elasticity);
       InelasticTerms *const terms = model->inelastic_terms();
       if (terms != nullptr)
       {
         terms->set_materials(reduce_strength(problem.materials, shown.factor));
         terms->restore_internal_state(shown_materials);
         (void)terms->assemble(relevant, /* with_tangent = */ false);
-        law = CurrentStress::inelastic(*terms, *covers, *quadrature, problem);
       }
-      evaluator =
-        std::make_unique<FieldEvaluator>(*field, *recovery, problem, law);
+      evaluator = std::make_unique<FieldEvaluator>(
+        *field, *recovery, problem, CurrentStress::of(*model, *quadrature));
       if (terms != nullptr)
         evaluator->set_plastic_strain(
           CurrentStress::plastic_strain(*terms, *covers, *quadrature));

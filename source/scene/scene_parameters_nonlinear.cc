@@ -178,20 +178,12 @@ namespace NMM
     const bool        is_static  = model.analysis == Analysis::statics;
     const std::string kinematics = to_string(model.kinematics) + " kinematics";
     for (const Material &material : materials)
-    {
-      const bool is_inelastic = material.law->is_inelastic();
-      const bool is_used      = model.kinematics == Kinematics::finite
-                                  ? !is_inelastic
-                                  : material.law->has_small_strains();
       AssertThrow(
-        is_used,
+        model.kinematics == Kinematics::finite ||
+          material.law->has_small_strains(),
         InputError("this law would not be used by " + kinematics,
                    "parameter 'Materials/" + material.name + "/Law'",
-                   is_inelastic
-                     ? "set 'Model/Kinematics = small', or another law"
-                     : "set 'Law = linear', or 'Model/Kinematics = "
-                       "finite'"));
-    }
+                   "set 'Law = linear', or 'Model/Kinematics = finite'"));
     if (model.kinematics == Kinematics::small && is_static && !is_nonlinear())
     {
       if (fracture.n_increments == 0)

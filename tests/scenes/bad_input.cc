@@ -188,10 +188,12 @@ namespace
         SCOPED_TRACE(override);
         expect_rejected({"--set", override, scene}, words);
       };
-    expect_rejected_rock("Model/Plane state=plane stress",
-                         {"Mohr-Coulomb", "rock", "plane strain"});
-    expect_rejected_rock("Model/Kinematics=finite",
-                         {"Materials/rock/Law", "finite", "small"});
+    expect_rejected({"--set",
+                     "Model/Plane state=plane stress",
+                     "--set",
+                     "Materials/rock/Cohesion=0",
+                     scene},
+                    {"cohesion", "rock", "plane stress"});
     expect_rejected_rock("Materials/rock/Cohesion=-1",
                          {"Materials/rock/Cohesion", "-1"});
     expect_rejected_rock("Materials/rock/Friction angle=90",

@@ -37,7 +37,8 @@ namespace NMM
    * @f[ \sigma_{n+1} = \sigma(\varepsilon_{n+1}, s_n), \qquad s_{n+1} = s(\varepsilon_{n+1},
    *     s_n), @f]
    * where s_n is the state after the last accepted step. An evaluation does not change s_n, so
-   * that a step can be repeated.
+   * that a step can be repeated. In large displacements InelasticTerms evaluates the law in the
+   * frame that rotates with the material.
    */
   class InelasticLaw
   {

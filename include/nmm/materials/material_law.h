@@ -22,7 +22,7 @@ namespace NMM
    * | kinematics | object | a law without it |
    * |---|---|---|
    * | `small` | InelasticLaw | is linear elastic there, if has_small_strains() |
-   * | `finite` | HyperelasticLaw | cannot be used there |
+   * | `finite` | HyperelasticLaw, or InelasticLaw (see InelasticTerms) | cannot be used there |
    *
    * The room `materials` consists of these laws. A scene or a program fills in a Material, whose
    * member Material::law is one of material_laws(), a copy with other parameters, or a law of the
@@ -50,8 +50,8 @@ namespace NMM
    * deformations only overrides hyperelastic_law(), and has_small_strains() to return false, as
    * NeoHookeLaw does; its evaluation is a class derived from HyperelasticLaw in the same file. One
    * that yields overrides is_inelastic(), inelastic_law() and reduce_strength(), as
-   * MohrCoulombLaw does, and check() if it refuses plane stress. The other places are the list of
-   * sources in source/materials/CMakeLists.txt, a test in tests/materials, the table of laws in
+   * MohrCoulombLaw does. The other places are the list of sources in
+   * source/materials/CMakeLists.txt, a test in tests/materials, the table of laws in
    * doc/scene-format.md, doc/parameters.md (`nmm --print-parameters=markdown`) and a file in
    * doc/news.
    */

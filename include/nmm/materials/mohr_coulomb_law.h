@@ -6,8 +6,8 @@
 namespace NMM
 {
   /**
-   * Elastic, perfectly plastic rock and soil: Mohr-Coulomb's condition with a tension cut-off. With the principal stresses @f$\sigma_1\ge\sigma_2\ge\sigma_3@f$ (tension
-   * positive),
+   * Elastic, perfectly plastic rock and soil: Mohr-Coulomb's condition with a tension cut-off.
+   * With the principal stresses @f$\sigma_1\ge\sigma_2\ge\sigma_3@f$ (tension positive),
    * @f[ N\sigma_1-\sigma_3\le 2c\sqrt N,\quad N=\frac{1+\sin\phi}{1-\sin\phi};\qquad
    *     \sigma_1\le\sigma_t. @f]
    * Plastic strain flows along the gradients of the same functions, but with the dilation angle

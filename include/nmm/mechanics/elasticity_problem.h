@@ -26,7 +26,7 @@
  * | elasticity_problem.h | materials, loads and supports |
  * | static_elasticity.h | small displacements, one linear system |
  * | finite_elasticity.h | total Lagrangian forces and tangent |
- * | inelastic_terms.h | adds inelastic materials to small displacements |
+ * | inelastic_terms.h | adds inelastic materials, in small and finite displacements |
  * | static_system.h, nonlinear_statics.h | static equilibrium of terms at growing load factors |
  * | force_term.h | interface of one kind of force, and the unknowns of a body |
  * | force_sink.h | where forces between a few covers, of whichever blocks, are added |

@@ -3,6 +3,7 @@
 
 #include <nmm/materials/inelastic_law.h>
 #include <nmm/mechanics/finite_elasticity.h>
+#include <nmm/mechanics/force_term.h>
 
 #include <memory>
 #include <vector>
@@ -10,9 +11,11 @@
 namespace NMM
 {
   /**
-   * The terms that inelastic materials add to the linear equations of small displacements. In
-   * inelastic regions the equations K u - f contain Hooke's law without initial stress only. For
-   * the stress sigma of InelasticLaw, this class adds
+   * The terms that inelastic materials add to the equations of FiniteElasticity, which contain an
+   * elastic law without initial stress in inelastic regions.
+   *
+   * Small displacements: the elastic law is Hooke's. For the stress sigma of InelasticLaw, this
+   * class adds
    * @f[ r(v) = \int_\Omega (\sigma - C\varepsilon(u)):\varepsilon(v)
    *     - \int_\Gamma \{(\sigma - C\varepsilon(u))N\}\cdot Bv, \qquad
    *     K = \frac{dr}{du}, @f]
@@ -20,12 +23,25 @@ namespace NMM
    * same law; the term that makes them symmetric keeps Hooke's law. K is not symmetric in
    * general. Elements that have never yielded and have no initial stress add nothing.
    *
+   * Finite displacements: the elastic law is St. Venant-Kirchhoff's, with the stress P_e. The
+   * inelastic law is evaluated in the frame that rotates with the material, F = R U, for Biot's
+   * strain U - I. Its stress T is conjugate to U, which gives P with P : dF = T : dU
+   * (source/mechanics/rotated_frame.h), and
+   * @f[ r(v) = \int_\Omega (P - P_e):\nabla v
+   *     - \int_\Gamma \{(P - P_e)N\}\cdot Bv. @f]
+   * Rotations may be of any size, and a rigid one changes neither T nor plastic strain nor energy.
+   * Strains have to be small, some percent: elastic and plastic strains are added, and T, which
+   * yields, is a force per reference area and thickness. Relative errors are of the size of strains.
+   * Conserving steps have the mean of T at both ends: they conserve momenta exactly, and the change
+   * of the stored energy is their work minus what the mean of T dissipates by the plastic strain.
+   * K is unsymmetric.
+   *
    * Material states are those of the last accepted step. Assembling does not change them;
    * accept() replaces them by those at the end of a step.
    *
-   * Cost: one evaluation of the law per quadrature point, and three passes over the matrix if
-   * any point yields. Memory: two states (80 bytes) per point of
-   * inelastic regions.
+   * Cost: one evaluation of the law per quadrature point, two in conserving steps of finite
+   * displacements, and three passes over the matrix if any point yields or displacements are finite.
+   * Memory: two states (80 bytes) per point of inelastic regions.
    *
    * Lifetime: the elasticity must outlive this object.
    */
@@ -38,29 +54,30 @@ namespace NMM
     using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
     /// @p elasticity must have an inelastic region, see FiniteElasticity::is_inelastic().
-    explicit InelasticTerms(const FiniteElasticity &elasticity);
+    InelasticTerms(const FiniteElasticity &elasticity, Kinematics kinematics);
     ~InelasticTerms();
 
     /// Assemble r at @p u (locally relevant, [m]) and, if @p with_tangent, K. The result
     /// Deformation::inverted means that a law has no stress at some point, and that no result of
-    /// the assembly may be used. Returns the same on all ranks.
+    /// the assembly may be used. Returns the same on all ranks. With @p begin, in finite
+    /// displacements only, r is that of a conserving step from there to @p u, K its derivative as
+    /// in FiniteElasticity::assemble_between(), and Totals::energy is undefined.
     Deformation
-    assemble(const Vector &u, bool with_tangent);
+    assemble(const Vector &u, bool with_tangent, const Vector *begin = nullptr);
 
     /// r of the last assembly on owned unknowns, 0 for constrained ones [N/m].
     const Vector &
     residual() const;
 
     /// The sum of @p elastic_stiffness and K of the last assembly, which must have been one with
-    /// tangent. If no point yields, this is @p elastic_stiffness itself.
+    /// tangent. In small displacements it is @p elastic_stiffness itself if no point yields.
     const Matrix &
     add_to(const Matrix &elastic_stiffness);
 
     /// Sums over an assembly and all ranks.
     struct Totals
     {
-      /// Stored energy (InelasticLaw::Response::energy) minus the energy of Hooke's law without
-      /// initial stress [J/m].
+      /// Stored energy (InelasticLaw::Response::energy) minus the energy of the elastic law [J/m].
       double energy = 0.;
       /// Dissipation sigma : Delta epsilon^p since the last accepted state, where sigma is the
       /// stress at the end of the step, as computed by the law; never negative [J/m].
@@ -109,7 +126,7 @@ namespace NMM
     /// Stresses and plastic strain at a quadrature point.
     struct PointValues
     {
-      /// In-plane stress [Pa]; the component 00 is NaN if the law has no stress.
+      /// In-plane Cauchy stress [Pa]; the component 00 is NaN if the law has no stress.
       dealii::SymmetricTensor<2, 2> stress;
       /// Out-of-plane normal stress [Pa].
       double stress_zz = 0.;

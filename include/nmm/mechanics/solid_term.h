@@ -15,7 +15,9 @@ namespace NMM
 {
   /**
    * The force term of a solid: the common part of `small` and `finite` kinematics, with loads as
-   * functions of time, releases, and the inertia forces of a moving base. See make_solid(), and
+   * functions of time, releases, and the inertia forces of a moving base. The energy that inelastic
+   * materials dissipate in a step of motion is the work of their forces minus the change of the
+   * stored energy, so that the energy balance closes. See make_solid(), and
    * make_solid_at_rest() for statics, where the time is the load factor.
    *
    * Lifetime: the elasticity must outlive this object, and from then on only this object may set
@@ -44,9 +46,20 @@ namespace NMM
     virtual void
     damp(const RayleighDamping &damping, bool is_conserving);
 
-    /// Work of loads and of supports, and of damping.
+    /// Evaluates inelastic materials at the beginning of a step of motion.
+    void
+    begin_step(const StepBegin &step) override;
+
+    /// Work of loads and of supports, and energy that damping and inelastic materials dissipate.
     StepWork
     commit(const Trial &step) override;
+
+    /// States of inelastic materials.
+    void
+    save(internal::ByteWriter &archive) const override;
+
+    void
+    restore(internal::ByteReader &archive) override;
 
     void
     set_active_blocks(const std::vector<bool> &is_active,
@@ -57,10 +70,10 @@ namespace NMM
     kinematics() const = 0;
 
     /// Forces of inelastic materials, or null if all materials are elastic.
-    virtual InelasticTerms *
+    InelasticTerms *
     inelastic_terms() const
     {
-      return nullptr;
+      return inelastic.get();
     }
 
     /// The elasticity given to the constructor.
@@ -106,7 +119,7 @@ namespace NMM
 
     /// Work that supports do [J/m] by moving from their positions at @p t_0 to those at @p t_1, with
     /// the forces at the displacements @p u and the time @p t [s].
-    virtual double
+    double
     work_of_supports(const Vector &u, double t, double t_0, double t_1);
 
     /// The same with the conserving forces of a step, which @p mean is the middle of.
@@ -118,9 +131,24 @@ namespace NMM
     virtual double
     energy_of_conditions(const Vector &u, const LoadAmplitudes &amplitudes) = 0;
 
-    /// Set fingerprint(); to be called at the end of constructors.
+    /// Set inelastic terms and fingerprint(); to be called at the end of constructors.
     void
-    set_fingerprint();
+    finish_construction();
+
+    /// Whether the inelastic forces of a step are InelasticTerms::assemble() between both ends, not
+    /// the mean of those at the ends.
+    bool
+    is_between(const Trial &step) const
+    {
+      return step.is_conserving && kinematics() == Kinematics::finite;
+    }
+
+    /// Work that supports do against the tractions of inelastic terms by moving from their positions
+    /// at @p t_0 to those at @p t_1 [J/m].
+    double
+    work_on_inelastic(const InelasticTerms::Totals &totals,
+                      double                        t_0,
+                      double                        t_1) const;
 
     /// Pass amplitudes on to the elasticity. Returns whether they differ from the last ones.
     bool
@@ -157,10 +185,23 @@ namespace NMM
     Vector zero;
     /// Whether all blocks are active, see set_active_blocks().
     bool all_blocks_are_active = true;
+    /// Forces of inelastic materials; null if there are none.
+    std::unique_ptr<InelasticTerms> inelastic;
+    /// Inelastic forces at the beginning of the step [N/m].
+    Vector forces_at_begin;
 
   private:
     void
     set_mass_of_translation();
+
+    /// Work of loads and of supports in a step of motion.
+    StepWork
+    work_of(const Trial &step);
+
+    /// Accepts the states at the end of a step of motion. Returns the energy that inelastic
+    /// materials dissipate in it [J/m].
+    double
+    accept_inelastic(const Trial &step);
 
     /// Number of releases passed so far, and of changes of absent blocks or of the tangent by
     /// damp().
@@ -176,17 +217,21 @@ namespace NMM
     /// have changed since.
     Vector                last_loads;
     std::optional<double> last_loads_at;
+    /// Sums of inelastic terms, displacements [m] and time [s] at the beginning of the step.
+    InelasticTerms::Totals totals_at_begin;
+    Vector                 begin_of_step;
+    double                 time_at_begin = 0.;
   };
 
 
   /// The term of a solid in total Lagrangian kinematics, see FiniteElasticity. In conserving steps
   /// stiffness-proportional damping acts on the rate of the Green-Lagrange strain, and hence
-  /// neither on rigid rotation nor on supports and ties.
+  /// neither on rigid rotation nor on supports and ties. Inelastic materials add their forces, and
+  /// make all tangents unsymmetric.
   class FiniteSolid : public SolidTerm
   {
   public:
     /// See the constructor of SolidTerm for arguments and errors.
-    /// @throws InputError for inelastic materials as well.
     explicit FiniteSolid(FiniteElasticity             &elasticity,
                          Loading                       loading = {},
                          std::shared_ptr<const Matrix> mass    = nullptr);
@@ -247,9 +292,8 @@ namespace NMM
    * amplitudes change.
    *
    * Inelastic materials add their forces (InelasticTerms). Conserving forces contain the mean of
-   * these forces at both ends of a step. The energy dissipated in a step is the work of that mean
-   * minus the change of the stored energy, so that the energy balance closes.
-   * Stiffness-proportional damping uses the stiffness of the elastic solid.
+   * these forces at both ends of a step. Stiffness-proportional damping uses the stiffness of the
+   * elastic solid.
    */
   class SmallSolid : public SolidTerm
   {
@@ -266,27 +310,12 @@ namespace NMM
       return Kinematics::small;
     }
 
-    InelasticTerms *
-    inelastic_terms() const override;
-
-    void
-    begin_step(const StepBegin &step) override;
-
     /// The tangent is symmetric as long as nothing has yielded in the last assembly.
     ForceProperties
     properties() const override;
 
     Deformation
     assemble(const Trial &trial, AssembledForces &sum) override;
-
-    StepWork
-    commit(const Trial &step) override;
-
-    void
-    save(internal::ByteWriter &archive) const override;
-
-    void
-    restore(internal::ByteReader &archive) override;
 
   private:
     /// A part of f [N/m], its scale [N/m] and the amplitudes that it was assembled for.
@@ -300,12 +329,6 @@ namespace NMM
 
     void
     external_forces(const Vector &u, double t, Vector &forces) override;
-
-    double
-    work_of_supports(const Vector &u,
-                     double        t,
-                     double        t_0,
-                     double        t_1) override;
 
     double
     work_of_supports_between(const Trial &step, const Vector &mean) override;
@@ -336,13 +359,6 @@ namespace NMM
     double
     scale_at_rest() const;
 
-    /// Work that supports do against the tractions of inelastic terms by moving from their positions
-    /// at @p t_0 to those at @p t_1 [J/m].
-    double
-    work_on_inelastic(const InelasticTerms::Totals &totals,
-                      double                        t_0,
-                      double                        t_1) const;
-
     /// Add @p share times the inelastic forces at @p u to the forces, and their tangent and energy to
     /// @p sum.
     Deformation
@@ -351,22 +367,13 @@ namespace NMM
                   bool             with_tangent,
                   AssembledForces &sum);
 
-    /// Work of friction within the material in a step of motion [J/m].
-    double
-    dissipated_in(const Trial &step) const;
-
     Vector       owned, forces;
     unsigned int stiffness_at  = 0;
     bool         has_stiffness = false;
     /// Forces of initial stress, and these together with loads or with prescribed displacements.
     Part initial, with_loads, with_supports;
     /// Force scale of the last forces whose energies were computed, without inelastic terms [N/m].
-    double                          elastic_scale = 0.;
-    std::unique_ptr<InelasticTerms> inelastic;
-    /// Inelastic forces [N/m] and sums, displacements [m] and time [s] at the beginning of the step.
-    Vector                 forces_at_begin, begin_of_step;
-    InelasticTerms::Totals totals_at_begin;
-    double                 time_at_begin = 0.;
+    double elastic_scale = 0.;
   };
 
 

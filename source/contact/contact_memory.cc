@@ -1,7 +1,8 @@
+#include <nmm/base/archive.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <base/archive.h>
 #include <contact/contact_memory.h>
 
 namespace NMM

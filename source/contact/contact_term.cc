@@ -1,3 +1,4 @@
+#include <nmm/base/archive.h>
 #include <nmm/contact/contact_term.h>
 #include <nmm/contact/contact_time_step.h>
 
@@ -5,7 +6,6 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <base/archive.h>
 #include <cmath>
 #include <linear_algebra/active_items.h>
 #include <linear_algebra/matrix_rows.h>
@@ -285,14 +285,14 @@ namespace NMM
 
 
   void
-  ContactTerm::save(internal::ByteWriter &archive) const
+  ContactTerm::save(ByteWriter &archive) const
   {
     archive & data->contact->history();
   }
 
 
   void
-  ContactTerm::restore(internal::ByteReader &archive)
+  ContactTerm::restore(ByteReader &archive)
   {
     ContactHistory history;
     archive       &history;

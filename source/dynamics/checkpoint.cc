@@ -1,9 +1,9 @@
+#include <nmm/base/archive.h>
 #include <nmm/dynamics/checkpoint.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <base/archive.h>
 #include <base/hash.h>
 #include <cmath>
 #include <dynamics/checkpoint_file.h>
@@ -11,9 +11,9 @@
 
 namespace NMM
 {
-  using internal::are_finite;
+  using are_finite;
+  using require_in_checkpoint;
   using internal::refuse_checkpoint;
-  using internal::require_in_checkpoint;
 
   namespace
   {
@@ -119,7 +119,7 @@ namespace NMM
   {
     const DynamicState    &state = integrator.state();
     const MechanicalModel &model = integrator.model();
-    internal::ByteWriter   archive;
+    ByteWriter             archive;
     archive &model.fingerprint() & scheme_fingerprint(integrator.scheme()) &
       state.closing.act_at(state.time) & model.internal_state();
     archive_scalars(archive, state);
@@ -147,7 +147,7 @@ namespace NMM
       internal::CheckpointFile::read(filename,
                                      model.layout().communicator,
                                      kind);
-    internal::ByteReader               archive(file.state);
+    ByteReader                         archive(file.state);
     std::uint64_t                      mesh, scheme;
     bool                               is_closing;
     std::vector<char>                  model_state;

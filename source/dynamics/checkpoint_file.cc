@@ -1,6 +1,6 @@
+#include <nmm/base/archive.h>
 #include <nmm/base/program.h>
 
-#include <base/archive.h>
 #include <base/hash.h>
 #include <cerrno>
 #include <cstdint>
@@ -26,7 +26,7 @@ namespace NMM
       struct Head
       {
         char          magic[8] = {'N', 'M', 'M', 'S', 'T', 'A', 'T', 'E'};
-        std::uint32_t version  = 14;
+        std::uint32_t version  = 15;
         /// Keeps the next member where it is on all machines.
         std::uint32_t unused = 0;
         /// Number of bytes after the head.

@@ -1,10 +1,10 @@
+#include <nmm/base/archive.h>
 #include <nmm/base/exceptions.h>
 #include <nmm/mechanics/inelastic_terms.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <base/archive.h>
 #include <cmath>
 #include <limits>
 #include <mechanics/finite_elasticity_data.h>

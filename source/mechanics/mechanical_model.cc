@@ -1,7 +1,7 @@
+#include <nmm/base/archive.h>
 #include <nmm/mechanics/mechanical_model.h>
 
 #include <algorithm>
-#include <base/archive.h>
 #include <cmath>
 #include <mechanics/coupled_forces.h>
 #include <utility>
@@ -130,6 +130,14 @@ namespace NMM
   }
 
 
+  void
+  MechanicalModel::forget()
+  {
+    for (ForceTerm *term : terms)
+      term->forget();
+  }
+
+
   StepWork
   MechanicalModel::commit(const Trial &step)
   {
@@ -180,7 +188,7 @@ namespace NMM
   {
     std::uint64_t hash = 0;
     for (const ForceTerm *term : terms)
-      hash ^= term->fingerprint();
+      hash += term->fingerprint();
     return hash;
   }
 
@@ -192,7 +200,7 @@ namespace NMM
     std::vector<char> state;
     for (const ForceTerm *term : terms)
     {
-      internal::ByteWriter archive;
+      ByteWriter archive;
       term->save(archive);
       if (term != terms.front())
         archive &state;
@@ -207,12 +215,12 @@ namespace NMM
   {
     for (auto term = terms.rbegin(); term != terms.rend(); ++term)
     {
-      internal::ByteReader archive(state);
-      std::vector<char>    of_terms_before;
+      ByteReader        archive(state);
+      std::vector<char> of_terms_before;
       (*term)->restore(archive);
       if (*term != terms.front())
         archive &of_terms_before;
-      internal::ByteReader::require(archive.n_left() == 0);
+      ByteReader::require(archive.n_left() == 0);
       state = std::move(of_terms_before);
     }
   }

@@ -1,8 +1,8 @@
+#include <nmm/base/archive.h>
 #include <nmm/base/exceptions.h>
 #include <nmm/mechanics/solid_term.h>
 
 #include <algorithm>
-#include <base/archive.h>
 #include <cmath>
 #include <mechanics/load_amplitudes.h>
 #include <mechanics/solid_hash.h>
@@ -346,7 +346,15 @@ namespace NMM
 
 
   void
-  SolidTerm::save(internal::ByteWriter &archive) const
+  SolidTerm::forget()
+  {
+    if (inelastic)
+      inelastic->forget_states();
+  }
+
+
+  void
+  SolidTerm::save(ByteWriter &archive) const
   {
     if (!inelastic)
       return;
@@ -356,7 +364,7 @@ namespace NMM
 
 
   void
-  SolidTerm::restore(internal::ByteReader &archive)
+  SolidTerm::restore(ByteReader &archive)
   {
     if (!inelastic)
       return;

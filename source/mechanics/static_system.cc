@@ -109,7 +109,6 @@ namespace NMM
   StaticSystem::begin_anew()
   {
     largest_factor = 0.;
-    if (InelasticTerms *const terms = solid_term->inelastic_terms())
-      terms->forget_states();
+    model.forget();
   }
 } // namespace NMM

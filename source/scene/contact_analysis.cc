@@ -1,3 +1,4 @@
+#include <nmm/base/archive.h>
 #include <nmm/base/exceptions.h>
 #include <nmm/contact/initial_stress.h>
 #include <nmm/dynamics/strength_reduction.h>
@@ -5,7 +6,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <base/archive.h>
 #include <cmath>
 #include <scene/contact_analysis.h>
 #include <scene/parsing.h>

@@ -1,9 +1,9 @@
+#include <nmm/base/archive.h>
 #include <nmm/output/csv_series.h>
 
 #include <deal.II/physics/transformations.h>
 
 #include <algorithm>
-#include <base/archive.h>
 #include <base/cross.h>
 #include <cmath>
 #include <scene/crack_growth.h>

@@ -1,3 +1,4 @@
+#include <nmm/base/archive.h>
 #include <nmm/base/exceptions.h>
 #include <nmm/base/stop.h>
 #include <nmm/contact/carried_history.h>
@@ -5,7 +6,6 @@
 #include <nmm/output/csv_series.h>
 
 #include <algorithm>
-#include <base/archive.h>
 #include <cmath>
 #include <dynamics/checkpoint_file.h>
 #include <limits>

@@ -1,8 +1,8 @@
+#include <nmm/base/archive.h>
 #include <nmm/base/exceptions.h>
 #include <nmm/fracture/tip_cover.h>
 
 #include <algorithm>
-#include <base/archive.h>
 #include <cmath>
 #include <scene/crack_growth.h>
 #include <scene/parsing.h>

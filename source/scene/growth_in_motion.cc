@@ -1,3 +1,4 @@
+#include <nmm/base/archive.h>
 #include <nmm/base/exceptions.h>
 #include <nmm/contact/carried_history.h>
 #include <nmm/dynamics/checkpoint.h>
@@ -5,7 +6,6 @@
 #include <nmm/mechanics/carried_covers.h>
 
 #include <algorithm>
-#include <base/archive.h>
 #include <cmath>
 #include <scene/dynamic_analysis.h>
 #include <scene/growth_in_motion.h>

@@ -1,8 +1,8 @@
 // Terms of one's own beside those of solid and contact.
 
+#include <nmm/base/archive.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 
-#include <base/archive.h>
 #include <dynamics/dynamic_model.h>
 #include <gtest/gtest.h>
 
@@ -65,13 +65,13 @@ namespace
     }
 
     void
-    save(internal::ByteWriter &archive) const override
+    save(ByteWriter &archive) const override
     {
       archive &n_steps;
     }
 
     void
-    restore(internal::ByteReader &archive) override
+    restore(ByteReader &archive) override
     {
       archive &n_steps;
     }

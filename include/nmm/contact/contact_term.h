@@ -86,10 +86,10 @@ namespace NMM
     set_presence(const Presence &presence) override;
 
     void
-    save(internal::ByteWriter &archive) const override;
+    save(ByteWriter &archive) const override;
 
     void
-    restore(internal::ByteReader &archive) override;
+    restore(ByteReader &archive) override;
 
     /// Continue with the @p history of contact only, e.g. the one that carry_history() returns.
     void

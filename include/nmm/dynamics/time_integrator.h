@@ -49,8 +49,13 @@
  * });
  * @endcode
  *
- * To add a scheme of the family of TimeScheme, write a function there that sets its coefficients;
- * scenes know it by a word in TimeParameters::Scheme (nmm/scene/scene_parameters_dynamics.h). How
+ * To add a scheme of the family of TimeScheme, write a function there that sets its coefficients.
+ * HHT-alpha, for example, has alpha_m = 0, alpha_f = alpha, beta = (1 + alpha)^2 / 4 and
+ * gamma = 1/2 + alpha; forces are those at u_{1 - alpha}, not the mean of both ends. The other places
+ * are a test in tests/dynamics/scheme_test.cc and, for scenes, TimeParameters::Scheme
+ * (nmm/scene/scene_parameters_dynamics.h); in source/scene/scene_parameters_dynamics.cc its word in
+ * `schemes`, its case in TimeParameters::time_scheme() and its own parameters in list_entries() and
+ * check_scheme(); the table of schemes in doc/scene-format.md, doc/parameters.md and doc/news. How
  * forces and accelerations of a scheme are combined in a step is in source/dynamics/scheme_step.h
  * (rates) and step_equations.h (residual and matrix): a scheme outside of the family, such as one
  * of several stages, changes these two.

@@ -10,7 +10,9 @@ namespace NMM
 {
   /// The history variables of the material at a point: a quadrature point of an element, or one side
   /// of a point of a displacement condition or tie. A new point has zeros. All inelastic laws share
-  /// this struct: what a new law needs beside it is added here and to serialize().
+  /// this struct: what a new law needs beside it is added here and to serialize(). That changes what
+  /// checkpoints contain: raise the version in source/dynamics/checkpoint_file.cc, and let
+  /// InelasticTerms::restore_internal_state() check that the new member is finite.
   struct MaterialState
   {
     /// In-plane plastic strain epsilon^p [-].

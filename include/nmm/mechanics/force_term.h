@@ -18,11 +18,8 @@
 
 namespace NMM
 {
-  namespace internal
-  {
-    class ByteReader;
-    class ByteWriter;
-  } // namespace internal
+  class ByteReader;
+  class ByteWriter;
 
 
   /// The description of the deformation.
@@ -285,13 +282,21 @@ namespace NMM
    * };
    * @endcode
    * A term with stored energy adds it to AssembledForces::energy_of_conditions, and if
-   * Trial::is_conserving its forces do the work of the change of that energy. Where blocks may leave
+   * Trial::is_conserving the work of its forces is the change of that energy plus what commit()
+   * returns as dissipated. For a spring that yields the mean of its forces at both ends does that: it
+   * dissipates this mean times the plastic extension. In other schemes both differ by an error of the
+   * scheme. A term whose tangent depends on the length of the step, as that of a dashpot, is not
+   * linear (properties()). What is known of the kinematics, if it matters, is told to the
+   * constructor. Where blocks may leave
    * or be removed, set_presence() notes which of MaterialVector::blocks are absent, and assemble()
    * leaves out what belongs to them. A term that uses only the sink is not derived from BlockTerm.
    *
    * The same terms act in motion (MechanicalModel, TimeIntegrator) and at rest: NonlinearStatics and
    * ContactStatics take a list of them. At rest the time is the load factor, and Trial::begin is
-   * null.
+   * null. relax() moves the model of a TimeIntegrator: steps are accepted on the way, so that what
+   * yields or slides in an overshoot stays so. Scenes know springs and such terms of a program's own
+   * not yet. In the library a term has a file of its own, which source/mechanics/CMakeLists.txt and
+   * the table of files in elasticity_problem.h name, a test in tests/dynamics and a file in doc/news.
    */
   class ForceTerm
   {
@@ -337,8 +342,10 @@ namespace NMM
       return {};
     }
 
-    /// Accept a step, whose forces were the last ones assembled, and return its work. What the
-    /// term remembers becomes that at the end. Invalidates the residual.
+    /// Accept the step to Trial::end, and return its work. What the term remembers becomes that at
+    /// Trial::end. It has to be computed from there: the last assembly may have been at another time
+    /// (generalized-alpha schemes). The next assembly at the same displacements, with the new memory,
+    /// gives the stored energy at the end of the step. Invalidates the residual.
     virtual StepWork
     commit(const Trial & /*step*/)
     {
@@ -352,17 +359,24 @@ namespace NMM
     {
     }
 
-    /// @{
-    /// Save and restore all data besides u that a continuation needs; the same on all ranks. The
-    /// archives are private to the library (source/base/archive.h), so that a term of a program's
-    /// own that remembers something cannot be continued from a checkpoint.
+    /// Forget what earlier steps have left, since NonlinearStatics::run() begins anew with the unloaded
+    /// body.
     virtual void
-    save(internal::ByteWriter & /*archive*/) const
+    forget()
+    {
+    }
+
+    /// @{
+    /// Save and restore all that the term remembers (`archive &plastic_extension`, see
+    /// nmm/base/archive.h); the same on all ranks. Otherwise a run that continues from a checkpoint
+    /// begins with a term that remembers nothing.
+    virtual void
+    save(ByteWriter & /*archive*/) const
     {
     }
 
     virtual void
-    restore(internal::ByteReader & /*archive*/)
+    restore(ByteReader & /*archive*/)
     {
     }
     /// @}
@@ -374,8 +388,9 @@ namespace NMM
       return event_times;
     }
 
-    /// A hash of what the forces depend on, to verify that a saved state fits. It does not depend
-    /// on the number of ranks. 0: the term is not verified.
+    /// A hash of what the forces depend on, to verify that a saved state fits, for example of all
+    /// arguments of the constructor. It does not depend on the number of ranks. 0: the term is not
+    /// verified, and a checkpoint of a body without it is accepted.
     std::uint64_t
     fingerprint() const
     {

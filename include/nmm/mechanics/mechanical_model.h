@@ -87,6 +87,9 @@ namespace NMM
     StepFault
     find_fault(const Vector &end);
 
+    void
+    forget();
+
     StepWork
     commit(const Trial &step);
     /// @}

@@ -54,12 +54,17 @@ namespace NMM
     StepWork
     commit(const Trial &step) override;
 
+    /// @{
     /// States of inelastic materials.
     void
-    save(internal::ByteWriter &archive) const override;
+    forget() override;
 
     void
-    restore(internal::ByteReader &archive) override;
+    save(ByteWriter &archive) const override;
+
+    void
+    restore(ByteReader &archive) override;
+    /// @}
 
     void
     set_active_blocks(const std::vector<bool> &is_active,

@@ -18,7 +18,8 @@ namespace NMM
    * loading path:
    * @f[ r(u) = \sum_\mathrm{terms} r_i(u) - \langle 1 - \lambda\rangle_+\,r_0. @f]
    * So a state that is in balance with all loads stays at rest in all load steps. What has been
-   * released is not held back again.
+   * released is not held back again. r_0 is that of inelastic materials; ContactStatics holds the sum
+   * of all terms, also the pretension of springs, if joints have an initial stress.
    *
    * Order of calls in a load step: begin_step(), assemble() as often as needed, commit() if the
    * step is accepted; otherwise begin_step() again.
@@ -63,12 +64,13 @@ namespace NMM
     void
     hold_initial_forces(const Vector &u);
 
-    /// Accept the step to @p u, whose forces were the last ones assembled: terms keep their new
-    /// states. Returns what they did.
+    /// Accept the step to @p u, whose forces were the last ones assembled: what terms remember becomes
+    /// that at @p u. Returns what they did.
     StepWork
     commit(const Vector &u);
 
-    /// Begin again in the undeformed state: inelastic materials forget theirs, and r_0 is held again.
+    /// Begin again in the undeformed state: terms forget theirs (ForceTerm::forget()), and r_0 is held
+    /// again.
     void
     begin_anew();
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace NMM
 {
@@ -111,6 +112,12 @@ namespace NMM
         // Whether the crack bends within the largest disk.
         , is_bent(tip.path.front().radius != 0. ||
                   tip.point.distance(tip.path.front().end) < largest_radius)
+        , has_stress_jumps(std::any_of(tip.regions.begin(),
+                                       tip.regions.end(),
+                                       [this](const unsigned int region) {
+                                         return extra_stress(region).norm() >
+                                                0.;
+                                       }))
         , rules(rules)
         , gauss(rule_degree)
         , sums(n_fields * radii.size(), 0.)
@@ -125,8 +132,8 @@ namespace NMM
       {
         if (is_bent)
           find_displacement_of_tip();
-        const bool has_faces =
-          loading.face_traction || !pressures.empty() || is_bent;
+        const bool has_faces = loading.face_traction || !pressures.empty() ||
+                               is_bent || has_stress_jumps;
         const auto &cells        = mesh.mathematical_mesh();
         const auto [first, last] = covers.locally_owned_elements();
         for (unsigned int element = first; element < last; ++element)
@@ -176,8 +183,10 @@ namespace NMM
       /// Body force at the tip [N/m^3], in the tip's frame.
       const Tensor<1, 2> force_at_tip;
       /// Whether the force that acts on the solid differs from `force_at_tip` anywhere.
-      const bool              has_varying_force;
-      const bool              is_bent;
+      const bool has_varying_force;
+      const bool is_bent;
+      /// Whether the initial stress of any region differs from `initial_stress`.
+      const bool              has_stress_jumps;
       DiskRules              &rules;
       const dealii::QGauss<1> gauss;
       Tensor<1, 2>            displacement_of_tip;
@@ -221,6 +230,15 @@ namespace NMM
       density(const unsigned int region) const
       {
         return problem.materials[region_to_material[region]].density;
+      }
+
+
+      /// Initial stress of a region without that of the tip's region [Pa].
+      SymmetricTensor<2, 2>
+      extra_stress(const unsigned int region) const
+      {
+        return problem.materials[region_to_material[region]].initial_stress -
+               material.initial_stress;
       }
 
 
@@ -365,8 +383,8 @@ namespace NMM
           is_open            = is_open || (curve.role == CurveRole::joint &&
                                 curve.state == JointState::open);
         }
-        // Curves that are tied run through the tip.
-        if (!is_open)
+        // Curves that are tied run through the tip. Only the initial stress can differ there.
+        if (!is_open && !has_stress_jumps)
           return;
         for (unsigned int p = 0; p < gauss.size(); ++p)
         {
@@ -384,10 +402,40 @@ namespace NMM
           const double r = at.x.distance(tip.point);
           // An edge that is shorter than coordinates can tell has no direction.
           if (r < largest_radius && r > 0. && at.velocity.norm() > 0.)
-            add_face_point(element,
-                           at,
-                           curves,
-                           gauss.weight(p) * rate * at.velocity.norm());
+          {
+            const double weight = gauss.weight(p) * rate * at.velocity.norm();
+            if (is_open)
+              add_face_point(element, at, curves, weight);
+            if (has_stress_jumps)
+              add_stress_jump(element, at, is_open, weight);
+          }
+        }
+      }
+
+
+      /// Adds the work of the traction -D n that the extra stress D of a region exerts on its edge
+      /// in the elastic problem. On an interface, that of the other side is added with its element.
+      void
+      add_stress_jump(const unsigned int element,
+                      const EdgePoint   &at,
+                      const bool         is_open,
+                      const double       weight)
+      {
+        const Tensor<1, 2> normal =
+          Point<2>(at.velocity[1], -at.velocity[0]) / at.velocity.norm();
+        const Tensor<1, 2> traction =
+          in_frame(-1. * (extra_stress(mesh.region(element)) * normal));
+        // The fields are continuous at an interface.
+        const auto fields_here =
+          fields_at(at.x, is_open ? -normal : Tensor<1, 2>());
+        const double r = at.x.distance(tip.point);
+        for (unsigned int f = 0; f < n_fields; ++f)
+        {
+          const Tensor<2, 2> &a = fields_here[f].gradient;
+          const double work     = traction * Tensor<1, 2>({a[0][0], a[1][0]});
+          for (unsigned int d = 0; d < radii.size(); ++d)
+            sums[n_fields * d + f] -=
+              weight * cut_off(r, radii[d]).first * work;
         }
       }
 
@@ -541,6 +589,8 @@ namespace NMM
           k.T = modulus * sums[n_fields * d + 2] + normal_stress +
                 contact_stress[d] + initial_stress[0][0] -
                 nu * initial_stress[1][1];
+          if (has_stress_jumps)
+            k.T = std::numeric_limits<double>::quiet_NaN();
           k.energy_release_rate = (k.K_I * k.K_I + k.K_II * k.K_II) / modulus;
           k.radius              = radii[d];
         }
@@ -566,8 +616,7 @@ namespace NMM
                            problem.materials[region_to_material[region]];
                          const PlaneElasticity other =
                            material.plane_elasticity(problem.plane_state);
-                         return other.lambda == e.lambda && other.mu == e.mu &&
-                                material.initial_stress == first.initial_stress;
+                         return other.lambda == e.lambda && other.mu == e.mu;
                        });
   }
 

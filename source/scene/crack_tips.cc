@@ -74,7 +74,7 @@ namespace NMM
       if (!undefined.empty())
         tip_notices.push_back(
           on_curve(undefined) +
-          ", between materials of different elasticity or initial stress: "
+          ", between materials of different elasticity: "
           "intensity factors are not defined there, since stress does not grow "
           "like the inverse root of the distance; cells are small there as at "
           "other tips");
@@ -345,7 +345,7 @@ namespace NMM
                {k.K_I, k.K_II, k.T, k.energy_release_rate, k.spread, k.radius})
           {
             out << ',';
-            if (has_factors(i))
+            if (has_factors(i) && !std::isnan(value))
               out << value;
           }
           out << '\n';

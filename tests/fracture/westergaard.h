@@ -3,6 +3,7 @@
 
 #include <nmm/covers/crack_tip.h>
 
+#include <array>
 #include <cmath>
 #include <complex>
 #include <mechanics/model.h>
@@ -39,6 +40,18 @@ namespace NMM
         return std::sqrt(z) * std::sqrt(z + 2. * a);
       }
 
+      virtual ~Westergaard() = default;
+
+      /// Integral of Z, Z, and its derivative, at the distance @p z from the tip.
+      virtual std::array<Complex, 3>
+      potential(const Complex &z) const
+      {
+        const Complex root = this->root(z);
+        return {sigma * root,
+                sigma * (z + a) / root,
+                -sigma * a * a / (root * root * root)};
+      }
+
       Tensor<2, 2>
       frame() const
       {
@@ -61,8 +74,8 @@ namespace NMM
       {
         if (x == tip)
           return {};
-        const Complex z = local(x), Z = sigma * (z + a) / root(z),
-                      Zt = sigma * root(z);
+        const Complex z        = local(x);
+        const auto [Zt, Z, dZ] = potential(z);
         return frame() *
                Point<2>((0.5 * (kappa - 1.) * Zt.real() - z.imag() * Z.imag()) /
                           (2. * mu),
@@ -73,16 +86,36 @@ namespace NMM
       Tensor<2, 2>
       gradient(const Point<2> &x) const
       {
-        const Complex z = local(x), Z = sigma * (z + a) / root(z);
-        // Z' = -sigma a^2 (z (z + 2a))^(-3/2)
-        const Complex dZ = -sigma * a * a / (root(z) * root(z) * root(z));
-        const double  y  = z.imag();
-        Tensor<2, 2>  g;
+        const Complex z        = local(x);
+        const auto [Zt, Z, dZ] = potential(z);
+        const double y         = z.imag();
+        Tensor<2, 2> g;
         g[0][0] = 0.5 * (kappa - 1.) * Z.real() - y * dZ.imag();
         g[0][1] = -0.5 * (kappa - 1.) * Z.imag() - Z.imag() - y * dZ.real();
         g[1][0] = 0.5 * (kappa + 1.) * Z.imag() - y * dZ.real();
         g[1][1] = 0.5 * (kappa + 1.) * Z.real() - Z.real() + y * dZ.imag();
         return frame() * (g / (2. * mu)) * dealii::transpose(frame());
+      }
+    };
+
+    /**
+     * The same plane without load but a pressure sigma x / a on the faces, x being the distance from
+     * the middle of the crack. It has the displacements of a plane with the initial stress
+     * sigma_22 = sigma x / a and free faces. K_I = sigma (pi a)^(1/2) / 2 (Tada, Paris & Irwin, The
+     * stress analysis of cracks handbook, section 5).
+     */
+    struct LinearPressure : Westergaard
+    {
+      using Westergaard::Westergaard;
+
+      std::array<Complex, 3>
+      potential(const Complex &z) const override
+      {
+        const Complex root = this->root(z), x = z + a, w = x * x - 0.5 * a * a;
+        const double  s = sigma / a;
+        return {0.5 * s * x * (root - x),
+                s * (w / root - x),
+                s * (x / root * (2. - w / (root * root)) - 1.)};
       }
     };
   } // namespace Test

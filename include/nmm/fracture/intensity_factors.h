@@ -22,7 +22,8 @@ namespace NMM
     /// Stress intensity factor of the sliding mode [Pa m^(1/2)]: ahead of the tip
     /// sigma_12 = K_II (2 pi r)^(-1/2) in the tip's frame.
     double K_II = 0.;
-    /// T-stress [Pa]: the part of sigma_11 at the tip that is not singular.
+    /// T-stress [Pa]: the part of sigma_11 at the tip that is not singular. NaN where regions with
+    /// different initial stress meet at the tip.
     double T = 0.;
     /// Energy that the crack releases per area if it grows straight on [J/m^2]:
     /// (K_I^2 + K_II^2) / E'.
@@ -101,9 +102,8 @@ namespace NMM
   /**
    * Whether the stress at a tip grows like the inverse root of the distance, so that it has intensity
    * factors: whether all materials around it have the same elasticity. Where they differ, the
-   * exponent is another one, or a complex number if the crack runs along the interface. Materials
-   * whose initial stress differs do not count as equal either, since the integrals would need terms
-   * on their interface. Density and toughness may differ.
+   * exponent is another one, or a complex number if the crack runs along the interface. Density,
+   * toughness and initial stress may differ.
    */
   bool
   has_intensity_factors(const CrackTip          &tip,
@@ -155,13 +155,28 @@ namespace NMM
    * times the traction. It is applied at r = (3/8)^2 rho, where a single force has the same
    * integral of w r^(-1/2).
    *
+   * Where regions with different initial stress meet at the tip, @f$\sigma^0@f$ is that of the
+   * region CrackTip::region, and D is that of another region minus @f$\sigma^0@f$. Without D the
+   * stress @f$\sigma-D@f$ satisfies the equations above with the loads t - D n on the faces
+   * and with the line force @f$-(D^+n^++D^-n^-)@f$ on interfaces, n pointing out of the region of
+   * each side. The elasticity is the same on both sides, so that P_j n_j jumps on an interface by the
+   * work of this line force on a_{,1} only, though du/dx jumps, too. Thus I gets
+   * @f[ I_D = \int_{\mathrm{faces}} q D_{ij}n_ja_{i,1}\,ds
+             + \int_{\mathrm{interfaces}} q(D^+_{ij}n^+_j+D^-_{ij}n^-_j)a_{i,1}\,ds. @f]
+   * The integrand grows like r^(-1/2) for K. For T it grows like 1/r: in general sigma_11 has a
+   * logarithm there, and it is another one in each region, so that T is not defined.
+   *
+   * Material has no initial stress that varies within a region. A program gives such a stress
+   * sigma^0(x) by its equivalent loads, the body force f + div sigma^0 and the traction t - sigma^0 n
+   * on faces and boundaries, which have the same displacements and the same factors.
+   *
    * In motion the inertia -rho d^2u/dt^2 is a part of the body force; at the tip it is left in the
    * part that varies. The factors are those of the crack as it stands still.
    *
-   * Limits: displacements are small, and initial stress is uniform in the regions at the tip. Within
+   * Limits: displacements are small, and initial stress is uniform in each region at the tip. Within
    * the disk there is no inelastic strain, no viscous stress, and no curve but this crack
    * (CrackTip::free_radius) and interfaces through its tip between materials of the same elasticity
-   * (has_intensity_factors()). Traction and displacement are continuous there, and so is P_jn_j.
+   * (has_intensity_factors()), where traction and displacement are continuous.
    *
    * Sources: M. Stern, E. Becker, R. Dunham, Int. J. Fract. 12 (1976), 359-368; J. Yau, S. Wang, H.
    * Corten, J. Appl. Mech. 47 (1980), 335-341; the form for bent cracks is derived here.

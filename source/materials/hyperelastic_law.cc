@@ -18,7 +18,7 @@ namespace NMM
 
 
   Deformation
-  HyperelasticLaw::tangent_derivative(const Tensor<2, 2> &F,
+  HyperelasticLaw::tangent_derivative(const Tensor<2, 2> &H,
                                       const Tensor<2, 2> &G,
                                       double (&derivative)[4][4]) const
   {
@@ -32,8 +32,8 @@ namespace NMM
     // The step balances the truncation error step^2 against the rounding error 1e-16 / step.
     const double step = 1e-4 / norm;
     Response     plus, minus;
-    if (evaluate(F + step * G, plus) != Deformation::admissible ||
-        evaluate(F - step * G, minus) != Deformation::admissible)
+    if (evaluate(H + step * G, plus) != Deformation::admissible ||
+        evaluate(H - step * G, minus) != Deformation::admissible)
       return Deformation::inverted;
     for (unsigned int a = 0; a < 4; ++a)
       for (unsigned int b = 0; b < 4; ++b)
@@ -44,28 +44,29 @@ namespace NMM
 
 
   Deformation
-  HyperelasticLaw::out_of_plane_stretch(const Tensor<2, 2> &F,
+  HyperelasticLaw::out_of_plane_stretch(const Tensor<2, 2> &H,
                                         double             &stretch) const
   {
     stretch = 1.;
     return plane_state == PlaneState::plane_strain
              ? Deformation::admissible
-             : plane_stress_stretch(F, stretch);
+             : plane_stress_stretch(H, stretch);
   }
 
 
   Deformation
-  HyperelasticLaw::cauchy_stress(const Tensor<2, 2>    &F,
+  HyperelasticLaw::cauchy_stress(const Tensor<2, 2>    &H,
                                  SymmetricTensor<2, 2> &stress) const
   {
     Response     response;
     double       s;
-    const double j = dealii::determinant(F);
-    if (!(j > 0.) || out_of_plane_stretch(F, s) != Deformation::admissible ||
-        evaluate_stress(F, response) != Deformation::admissible)
+    const double j = 1. + determinant_change(H);
+    if (!(j > 0.) || out_of_plane_stretch(H, s) != Deformation::admissible ||
+        evaluate_stress(H, response) != Deformation::admissible)
       return Deformation::inverted;
-    stress =
-      dealii::symmetrize(response.stress * dealii::transpose(F)) / (s * j);
+    stress = dealii::symmetrize(response.stress *
+                                dealii::transpose(deformation_gradient(H))) /
+             (s * j);
     return Deformation::admissible;
   }
 } // namespace NMM

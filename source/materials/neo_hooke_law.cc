@@ -23,45 +23,36 @@ namespace NMM
       }
 
       Deformation
-      evaluate_stress(const Tensor<2, 2> &F, Response &response) const override
+      evaluate_stress(const Tensor<2, 2> &H, Response &response) const override
       {
-        Derivatives  d;
-        const double I = F.norm_square(), j = dealii::determinant(F);
-        if (differentiate(I, j, d) != Deformation::admissible)
+        Derivatives d;
+        if (differentiate(H, d) != Deformation::admissible)
           return Deformation::inverted;
-        response.energy = d.w + initial_stress * green_strain(F);
-        response.stress = first_stress(F, initial_stress) + 2. * d.w_I * F;
-        response.stress[0][0] += d.w_j * F[1][1];
-        response.stress[0][1] -= d.w_j * F[1][0];
-        response.stress[1][0] -= d.w_j * F[0][1];
-        response.stress[1][1] += d.w_j * F[0][0];
+        set_stress(H, d, response);
         return Deformation::admissible;
       }
 
 
       Deformation
-      evaluate(const Tensor<2, 2> &F, Response &response) const override
+      evaluate(const Tensor<2, 2> &H, Response &response) const override
       {
-        double(&A)[4][4]  = response.tangent;
-        const double f[4] = {F[0][0], F[0][1], F[1][0], F[1][1]};
-        Derivatives  d;
-        const double I = F.norm_square(), j = dealii::determinant(F);
-        if (differentiate(I, j, d) != Deformation::admissible)
+        Derivatives d;
+        if (differentiate(H, d) != Deformation::admissible)
           return Deformation::inverted;
+        set_stress(H, d, response);
+        double(&A)[4][4]  = response.tangent;
+        const double f[4] = {1. + H[0][0], H[0][1], H[1][0], 1. + H[1][1]};
         const double cofactor[4] = {f[3], -f[2], -f[1], f[0]};
-        response.energy          = d.w + initial_stress * green_strain(F);
-        response.stress          = first_stress(F, initial_stress);
+        const double w_j         = d.pressure - 2. * d.w_I;
         for (unsigned int a = 0; a < 4; ++a)
         {
-          response.stress[a / 2][a % 2] +=
-            2. * d.w_I * f[a] + d.w_j * cofactor[a];
           for (unsigned int b = 0; b < 4; ++b)
             A[a][b] = 4. * d.w_II * f[a] * f[b] +
                       2. * d.w_Ij * (f[a] * cofactor[b] + cofactor[a] * f[b]) +
                       d.w_jj * cofactor[a] * cofactor[b];
           A[a][a] += 2. * d.w_I;
           // This is the term with the second derivative of det F.
-          A[a][3 - a] += (a == 0 || a == 3) ? d.w_j : -d.w_j;
+          A[a][3 - a] += (a == 0 || a == 3) ? w_j : -w_j;
         }
         add_geometric_stiffness(initial_stress, A);
         return Deformation::admissible;
@@ -69,24 +60,23 @@ namespace NMM
 
 
       Deformation
-      plane_stress_stretch(const Tensor<2, 2> &F,
+      plane_stress_stretch(const Tensor<2, 2> &H,
                            double             &stretch) const override
       {
-        const double j = dealii::determinant(F);
-        if (!(j > 0.))
+        const double j_1 = determinant_change(H);
+        if (!(j_1 > -1.))
           return Deformation::inverted;
-        stretch = find_stretch(F.norm_square(), j);
+        stretch = 1. + find_stretch(square_change(H), j_1);
         return Deformation::admissible;
       }
 
 
       double
-      plane_strain_stress(const Tensor<2, 2> &F) const override
+      plane_strain_stress(const Tensor<2, 2> &H) const override
       {
-        const double J = dealii::determinant(F);
-        return mu * std::pow(J, -2. / 3.) * (1. - (F.norm_square() + 1.) / 3.) /
-                 J +
-               bulk_modulus * (J - 1.);
+        const double J_1 = determinant_change(H), J = 1. + J_1;
+        return -mu * std::pow(J, -2. / 3.) * square_change(H) / (3. * J) +
+               bulk_modulus * J_1;
       }
 
 
@@ -101,55 +91,84 @@ namespace NMM
       /// of s.
       struct Derivatives
       {
-        double w, w_I, w_j, w_II, w_Ij, w_jj;
+        double w, w_I;
+        /// 2 w_I + w_j, which is 0 at rest.
+        double pressure;
+        double w_II, w_Ij, w_jj;
       };
 
 
+      /// The energy, and P = 2 w_I F + w_j cof F = 2 w_I (F - cof F) + (2 w_I + w_j) cof F, whose
+      /// parts are small where H is.
+      void
+      set_stress(const Tensor<2, 2> &H,
+                 const Derivatives  &d,
+                 Response           &response) const
+      {
+        const double deviator = H[0][0] - H[1][1], shear = H[0][1] + H[1][0];
+        response.energy = d.w + initial_stress * green_strain(H);
+        response.stress = first_stress(H, initial_stress);
+        response.stress[0][0] +=
+          2. * d.w_I * deviator + d.pressure * (1. + H[1][1]);
+        response.stress[0][1] += 2. * d.w_I * shear - d.pressure * H[1][0];
+        response.stress[1][0] += 2. * d.w_I * shear - d.pressure * H[0][1];
+        response.stress[1][1] +=
+          -2. * d.w_I * deviator + d.pressure * (1. + H[0][0]);
+      }
+
+
       /**
-       * The stretch s in plane stress, from dw/ds = 0 by Newton's method, where
-       * w(s) = mu/2 ((j s)^(-2/3) (I + s^2) - 3) + K/2 (j s - 1)^2.
-       * w'' > 0 for s > 0; a step that would make s negative is cut.
+       * The stretch s - 1 in plane stress, from dw/ds = 0 by Newton's method, where
+       * w(s) = mu/2 ((j s)^(-2/3) (I + s^2) - 3) + K/2 (j s - 1)^2, with I_2 = I - 2 and
+       * j_1 = j - 1. w'' > 0 for s > 0; a step that would make s negative is cut.
        */
       double
-      find_stretch(const double I, const double j) const
+      find_stretch(const double I_2, const double j_1) const
       {
-        const double K = bulk_modulus;
-        double       s = std::pow(j, -poissons_ratio / (1. - poissons_ratio));
+        const double K = bulk_modulus, I = 2. + I_2, j = 1. + j_1;
+        double       t =
+          std::expm1(-poissons_ratio / (1. - poissons_ratio) * std::log1p(j_1));
         for (unsigned int iteration = 0; iteration < 50; ++iteration)
         {
-          const double c = 1. / std::cbrt(j * s * j * s);
-          const double w_s =
-            mu * c * (2. * s - I / s) / 3. + K * (j * s - 1.) * j;
+          const double s   = 1. + t;
+          const double c   = 1. / std::cbrt(j * s * j * s);
+          const double w_s = mu * c * (2. * t * (2. + t) - I_2) / (3. * s) +
+                             K * (j_1 + j * t) * j;
           const double w_ss = mu * c * (5. * I / (s * s) + 2.) / 9. + K * j * j;
-          const double next = std::max(s - w_s / w_ss, 0.3 * s);
-          const bool   done = std::abs(next - s) < 1e-9 * s;
-          s                 = next;
+          const double next = std::max(t - w_s / w_ss, 0.3 * s - 1.);
+          const bool   done =
+            std::abs(next - t) <=
+            1e-9 * (std::abs(t) + std::abs(I_2) + std::abs(j_1));
+          t = next;
           // Convergence is quadratic, so the error is now of the order of rounding.
           if (done)
             break;
         }
-        return s;
+        return t;
       }
 
 
       Deformation
-      differentiate(const double I, const double j, Derivatives &d) const
+      differentiate(const Tensor<2, 2> &H, Derivatives &d) const
       {
-        if (!(j > 0.))
+        const double I_2 = square_change(H), j_1 = determinant_change(H);
+        if (!(j_1 > -1.))
           return Deformation::inverted;
         const bool   is_plane_stress = plane_state == PlaneState::plane_stress;
-        const double s   = is_plane_stress ? find_stretch(I, j) : 1.;
-        const double K   = bulk_modulus;
-        const double J   = j * s;
-        const double c   = 1. / std::cbrt(J * J);
-        const double I_3 = I + s * s;
+        const double t = is_plane_stress ? find_stretch(I_2, j_1) : 0.;
+        const double K = bulk_modulus;
+        const double I = 2. + I_2, j = 1. + j_1, s = 1. + t;
+        const double J_1 = j_1 + j * t, J = 1. + J_1;
+        // c = J^(-2/3) and F : F + s^2, both without their values at rest
+        const double c_1 = std::expm1(-2. / 3. * std::log1p(J_1)), c = 1. + c_1;
+        const double I_3 = I_2 + t * (2. + t);
 
-        d.w    = 0.5 * mu * (c * I_3 - 3.) + 0.5 * K * (J - 1.) * (J - 1.);
-        d.w_I  = 0.5 * mu * c;
-        d.w_j  = -mu * c * I_3 / (3. * j) + K * (J - 1.) * s;
-        d.w_II = 0.;
-        d.w_Ij = -mu * c / (3. * j);
-        d.w_jj = 5. * mu * c * I_3 / (9. * j * j) + K * s * s;
+        d.w        = 0.5 * mu * (3. * c_1 + c * I_3) + 0.5 * K * J_1 * J_1;
+        d.w_I      = 0.5 * mu * c;
+        d.pressure = mu * c * (3. * j_1 - I_3) / (3. * j) + K * J_1 * s;
+        d.w_II     = 0.;
+        d.w_Ij     = -mu * c / (3. * j);
+        d.w_jj     = 5. * mu * c * (3. + I_3) / (9. * j * j) + K * s * s;
         if (is_plane_stress)
         {
           const double w_Is = -mu * c / (3. * s);

@@ -20,24 +20,24 @@ namespace NMM
 
 
       Deformation
-      evaluate_stress(const Tensor<2, 2> &F, Response &response) const override
+      evaluate_stress(const Tensor<2, 2> &H, Response &response) const override
       {
-        response.stress = first_stress(F, second_stress(F, response.energy));
+        response.stress = first_stress(H, second_stress(H, response.energy));
         return Deformation::admissible;
       }
 
 
       /// A_iJkL = lambda F_iJ F_kL + mu (F_iL F_kJ + delta_JL (F F^T)_ik) + delta_ik S_JL.
       Deformation
-      evaluate(const Tensor<2, 2> &F, Response &response) const override
+      evaluate(const Tensor<2, 2> &H, Response &response) const override
       {
-        double(&A)[4][4]                 = response.tangent;
-        const double                f[4] = {F[0][0], F[0][1], F[1][0], F[1][1]};
-        const SymmetricTensor<2, 2> S    = second_stress(F, response.energy);
-        response.stress                  = first_stress(F, S);
-        const double b[2][2]             = {
-                      {f[0] * f[0] + f[1] * f[1], f[0] * f[2] + f[1] * f[3]},
-                      {f[0] * f[2] + f[1] * f[3], f[2] * f[2] + f[3] * f[3]}};
+        double(&A)[4][4]  = response.tangent;
+        const double f[4] = {1. + H[0][0], H[0][1], H[1][0], 1. + H[1][1]};
+        const SymmetricTensor<2, 2> S = second_stress(H, response.energy);
+        response.stress               = first_stress(H, S);
+        const double b[2][2]          = {
+                   {f[0] * f[0] + f[1] * f[1], f[0] * f[2] + f[1] * f[3]},
+                   {f[0] * f[2] + f[1] * f[3], f[2] * f[2] + f[3] * f[3]}};
         for (unsigned int i = 0; i < 2; ++i)
           for (unsigned int J = 0; J < 2; ++J)
             for (unsigned int k = 0; k < 2; ++k)
@@ -53,11 +53,11 @@ namespace NMM
 
       /// S_33 = 0 gives E_33 = -nu / (1 - nu) tr E, and the stretch is (1 + 2 E_33)^(1/2).
       Deformation
-      plane_stress_stretch(const Tensor<2, 2> &F,
+      plane_stress_stretch(const Tensor<2, 2> &H,
                            double             &stretch) const override
       {
         const double square = 1. - 2. * poissons_ratio / (1. - poissons_ratio) *
-                                     dealii::trace(green_strain(F));
+                                     dealii::trace(green_strain(H));
         if (!(square > 0.))
           return Deformation::inverted;
         stretch = std::sqrt(square);
@@ -66,10 +66,10 @@ namespace NMM
 
 
       double
-      plane_strain_stress(const Tensor<2, 2> &F) const override
+      plane_strain_stress(const Tensor<2, 2> &H) const override
       {
-        return elasticity.lambda * 0.5 * (F.norm_square() - 2.) /
-               dealii::determinant(F);
+        return elasticity.lambda * 0.5 * square_change(H) /
+               (1. + determinant_change(H));
       }
 
 
@@ -81,9 +81,9 @@ namespace NMM
 
     private:
       SymmetricTensor<2, 2>
-      second_stress(const Tensor<2, 2> &F, double &energy) const
+      second_stress(const Tensor<2, 2> &H, double &energy) const
       {
-        const SymmetricTensor<2, 2> E  = green_strain(F);
+        const SymmetricTensor<2, 2> E  = green_strain(H);
         const double          pressure = elasticity.lambda * dealii::trace(E);
         SymmetricTensor<2, 2> S        = 2. * elasticity.mu * E;
         S[0][0] += pressure;

@@ -21,32 +21,21 @@ namespace NMM
       constexpr double weights[3]   = {5. / 18., 8. / 18., 5. / 18.};
 
 
-      /// The strain E = (H + H^T + H^T H) / 2, a form that is accurate for small strains.
-      SymmetricTensor<2, 2>
-      green_strain(const Tensor<2, 2> &H)
-      {
-        SymmetricTensor<2, 2> E;
-        E[0][0] = H[0][0] + 0.5 * (H[0][0] * H[0][0] + H[1][0] * H[1][0]);
-        E[1][1] = H[1][1] + 0.5 * (H[0][1] * H[0][1] + H[1][1] * H[1][1]);
-        E[0][1] =
-          0.5 * (H[0][1] + H[1][0] + H[0][0] * H[0][1] + H[1][0] * H[1][1]);
-        return E;
-      }
-
-
-      /// The right stretch tensor U, the positive definite root of C = I + 2 E, by the
-      /// Cayley-Hamilton theorem.
+      /// U - I, U being the right stretch tensor, the positive definite root of C = I + 2 E. With
+      /// d = (det C)^(1/2) and t = (tr C + 2 d)^(1/2), U = (C + d I) / t by the Cayley-Hamilton
+      /// theorem, and 1 + d - t = 4 det E / (1 + d + t), which keeps the digits of small strains.
       Tensor<2, 2>
-      right_stretch(const SymmetricTensor<2, 2> &E)
+      right_stretch_change(const SymmetricTensor<2, 2> &E)
       {
-        Tensor<2, 2> C = 2. * Tensor<2, 2>(E);
-        C[0][0] += 1.;
-        C[1][1] += 1.;
-        const double d = std::sqrt(dealii::determinant(C));
-        const double t = std::sqrt(dealii::trace(C) + 2. * d);
-        C[0][0] += d;
-        C[1][1] += d;
-        return C / t;
+        const double trace    = 2. * dealii::trace(E),
+                     det      = dealii::determinant(E);
+        const double d        = std::sqrt(1. + trace + 4. * det);
+        const double t        = std::sqrt(2. + trace + 2. * d);
+        const double diagonal = 4. * det / (1. + d + t);
+        Tensor<2, 2> change   = 2. * Tensor<2, 2>(E);
+        change[0][0] += diagonal;
+        change[1][1] += diagonal;
+        return change / t;
       }
 
     } // namespace
@@ -61,7 +50,7 @@ namespace NMM
     }
 
 
-    /// S and D = dS/dE follow from P and A = dP/dF at F = U, by S = U^-1 P and
+    /// S and D = dS/dE follow from P and A = dP/dF at F = U, H = U - I, by S = U^-1 P and
     /// A_iJkL = delta_ik S_JL + U_iM U_kN D_MJNL.
     Deformation
     ConservingLaw::second_stress(const SymmetricTensor<2, 2> &E,
@@ -69,12 +58,12 @@ namespace NMM
                                  SymmetricTensor<2, 2>       &S,
                                  double (&D)[4][4]) const
     {
-      const Tensor<2, 2>        U       = right_stretch(E);
-      const Tensor<2, 2>        inverse = dealii::invert(U);
+      const Tensor<2, 2> H       = right_stretch_change(E);
+      const Tensor<2, 2> inverse = dealii::invert(deformation_gradient(H));
       HyperelasticLaw::Response response;
       if ((with_tangent
-             ? law->evaluate(U, response)
-             : law->evaluate_stress(U, response)) != Deformation::admissible)
+             ? law->evaluate(H, response)
+             : law->evaluate_stress(H, response)) != Deformation::admissible)
         return Deformation::inverted;
       S = dealii::symmetrize(inverse * response.stress);
       if (!with_tangent)
@@ -103,8 +92,7 @@ namespace NMM
                                      SymmetricTensor<2, 2> &S,
                                      double (&D)[4][4]) const
     {
-      const Tensor<2, 2> F_0 = with_identity(H_0), F_1 = with_identity(H_1);
-      if (!(dealii::determinant(F_0) > 0.) || !(dealii::determinant(F_1) > 0.))
+      if (!(determinant_change(H_0) > -1.) || !(determinant_change(H_1) > -1.))
         return Deformation::inverted;
       const SymmetricTensor<2, 2> E_0    = green_strain(H_0);
       const SymmetricTensor<2, 2> change = green_strain(H_1) - E_0;
@@ -131,8 +119,8 @@ namespace NMM
         return Deformation::admissible;
 
       HyperelasticLaw::Response response_0, response_1;
-      if (law->evaluate_stress(F_0, response_0) != Deformation::admissible ||
-          law->evaluate_stress(F_1, response_1) != Deformation::admissible)
+      if (law->evaluate_stress(H_0, response_0) != Deformation::admissible ||
+          law->evaluate_stress(H_1, response_1) != Deformation::admissible)
         return Deformation::inverted;
       const SymmetricTensor<2, 2> S_mean = S;
       const double                factor =
@@ -141,8 +129,8 @@ namespace NMM
       if (!with_tangent)
         return Deformation::admissible;
 
-      const SymmetricTensor<2, 2> S_1 =
-        dealii::symmetrize(dealii::invert(F_1) * response_1.stress);
+      const SymmetricTensor<2, 2> S_1 = dealii::symmetrize(
+        dealii::invert(deformation_gradient(H_1)) * response_1.stress);
       // slope is 2 d(factor)/dE_1
       Tensor<2, 2> slope = 2. * (S_1 - S_mean) - 4. * factor * change;
       for (unsigned int N = 0; N < 2; ++N)
@@ -212,8 +200,8 @@ namespace NMM
       result.E_1 = green_strain(H_1);
       if (!law->is_linear_in_green_strain())
       {
-        if (!(dealii::determinant(with_identity(H_0)) > 0.) ||
-            !(dealii::determinant(with_identity(H_1)) > 0.))
+        if (!(determinant_change(H_0) > -1.) ||
+            !(determinant_change(H_1) > -1.))
           return Deformation::inverted;
         SymmetricTensor<2, 2> S_0, S_1;
         double                D[4][4];
@@ -273,7 +261,7 @@ namespace NMM
                             const double        damping,
                             Response           &response) const
     {
-      const Tensor<2, 2>    F = with_identity(0.5 * (H_0 + H_1));
+      const Tensor<2, 2>    F = deformation_gradient(0.5 * (H_0 + H_1));
       SymmetricTensor<2, 2> S;
       double                D[4][4];
       if (!law->is_linear_in_green_strain())
@@ -314,7 +302,7 @@ namespace NMM
         (law->is_linear_in_green_strain() ? 1. : 0.) + 2. * damping;
       const double       lambda = moduli * elasticity.lambda;
       const double       mu     = moduli * elasticity.mu;
-      const Tensor<2, 2> F_1    = with_identity(H_1);
+      const Tensor<2, 2> F_1    = deformation_gradient(H_1);
       const Tensor<2, 2> b      = F * dealii::transpose(F_1);
       for (unsigned int i = 0; i < 2; ++i)
         for (unsigned int J = 0; J < 2; ++J)

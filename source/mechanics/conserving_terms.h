@@ -13,16 +13,6 @@ namespace NMM
 {
   namespace internal
   {
-    /// I + @p H.
-    inline dealii::Tensor<2, 2>
-    with_identity(dealii::Tensor<2, 2> H)
-    {
-      H[0][0] += 1.;
-      H[1][1] += 1.;
-      return H;
-    }
-
-
     /**
      * The conserving stress between two states 0 and 1, whose work is exactly the change of the
      * strain energy W. With F_m = (F_0 + F_1) / 2 and the Green-Lagrange strain E,

@@ -88,9 +88,9 @@ namespace NMM
         const ConservingLaw &law = region_to_law[point.sides[s].region];
         const Tensor<2, 2>   H_0 = terms.gradient(begin, s),
                            H_1   = terms.gradient(end, s),
-                           F_0   = with_identity(H_0);
+                           F_0   = deformation_gradient(H_0);
         SideState state;
-        state.F_1 = with_identity(H_1);
+        state.F_1 = deformation_gradient(H_1);
         state.F_m = 0.5 * (F_0 + state.F_1);
         if (law.secant(H_0, H_1, state.secant) != Deformation::admissible)
           return Deformation::inverted;

@@ -65,38 +65,26 @@ namespace NMM
     };
 
 
-    /// The tensor @p diagonal * I + sum_i u_i (x) grad w_i for @p n weight functions: with the
-    /// @p diagonal 0 the displacement gradient, with 1 the deformation gradient.
+    /// The displacement gradient H = sum_i u_i (x) grad w_i for @p n weight functions.
     inline dealii::Tensor<2, 2>
     displacement_gradient(const unsigned int n,
                           const double (*u)[2],
-                          const double (*gradients)[2],
-                          const double diagonal = 0.)
+                          const double (*gradients)[2])
     {
-      double f00 = diagonal, f01 = 0., f10 = 0., f11 = diagonal;
+      double h00 = 0., h01 = 0., h10 = 0., h11 = 0.;
       for (unsigned int i = 0; i < n; ++i)
       {
-        f00 += u[i][0] * gradients[i][0];
-        f01 += u[i][0] * gradients[i][1];
-        f10 += u[i][1] * gradients[i][0];
-        f11 += u[i][1] * gradients[i][1];
+        h00 += u[i][0] * gradients[i][0];
+        h01 += u[i][0] * gradients[i][1];
+        h10 += u[i][1] * gradients[i][0];
+        h11 += u[i][1] * gradients[i][1];
       }
-      dealii::Tensor<2, 2> F;
-      F[0][0] = f00;
-      F[0][1] = f01;
-      F[1][0] = f10;
-      F[1][1] = f11;
-      return F;
-    }
-
-
-    /// The deformation gradient F = I + sum_i u_i (x) grad w_i for @p n weight functions.
-    inline dealii::Tensor<2, 2>
-    deformation_gradient(const unsigned int n,
-                         const double (*u)[2],
-                         const double (*gradients)[2])
-    {
-      return displacement_gradient(n, u, gradients, 1.);
+      dealii::Tensor<2, 2> H;
+      H[0][0] = h00;
+      H[0][1] = h01;
+      H[1][0] = h10;
+      H[1][1] = h11;
+      return H;
     }
 
 

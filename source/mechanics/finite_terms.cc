@@ -13,12 +13,10 @@ namespace NMM
       /// Add delta_ik dS_JL with dS = -C : H^T H / 2 to A_iJkL, see add_volume_terms().
       void
       linearize_stress(const PlaneElasticity &c,
-                       const Tensor<2, 2>    &H_plus_identity,
+                       const Tensor<2, 2>    &H,
                        double (&A)[4][4])
       {
-        const Tensor<2, 2> &f   = H_plus_identity;
-        const double        h00 = f[0][0] - 1., h01 = f[0][1], h10 = f[1][0],
-                     h11      = f[1][1] - 1.;
+        const double h00 = H[0][0], h01 = H[0][1], h10 = H[1][0], h11 = H[1][1];
         const double x00      = 0.5 * (h00 * h00 + h10 * h10),
                      x11      = 0.5 * (h01 * h01 + h11 * h11),
                      x01      = 0.5 * (h00 * h01 + h10 * h11);
@@ -90,10 +88,10 @@ namespace NMM
         {
           const double(*g)[2]       = table.gradients + q * n;
           const double       weight = table.weights[q];
-          const Tensor<2, 2> F      = deformation_gradient(n, u.values, g);
+          const Tensor<2, 2> H      = displacement_gradient(n, u.values, g);
           if ((local.with_matrix
-                 ? law.evaluate(F, response)
-                 : law.evaluate_stress(F, response)) != Deformation::admissible)
+                 ? law.evaluate(H, response)
+                 : law.evaluate_stress(H, response)) != Deformation::admissible)
             return Deformation::inverted;
 
           local.energy += weight * response.energy;
@@ -102,7 +100,7 @@ namespace NMM
             continue;
           if (increment != nullptr)
             linearize_stress(law.small_strain(),
-                             deformation_gradient(n, increment->values, g),
+                             displacement_gradient(n, increment->values, g),
                              response.tangent);
           add_stiffness<n>(weight, g, response.tangent, local.matrix);
         }
@@ -142,9 +140,9 @@ namespace NMM
       {
         const HyperelasticLaw    &law  = *region_to_law[point.sides[s].region];
         WeakFlux                 &flux = terms.fluxes[s];
-        const Tensor<2, 2>        F    = terms.gradient(u, s, 1.);
+        const Tensor<2, 2>        H    = terms.gradient(u, s);
         HyperelasticLaw::Response response;
-        if (law.evaluate(F, response) != Deformation::admissible)
+        if (law.evaluate(H, response) != Deformation::admissible)
           return Deformation::inverted;
         flux.set_elastic(response.stress,
                          response.tangent,
@@ -152,7 +150,7 @@ namespace NMM
                          terms.d);
         flux.has_conjugate_by_gradient = with_third_derivative;
         if (with_third_derivative &&
-            law.tangent_derivative(F, G, flux.conjugate_by_gradient) !=
+            law.tangent_derivative(H, G, flux.conjugate_by_gradient) !=
               Deformation::admissible)
           return Deformation::inverted;
       }
@@ -180,12 +178,11 @@ namespace NMM
         const WeakPoint::Side    &side = point.sides[s];
         const HyperelasticLaw    &law  = *region_to_law[side.region];
         HyperelasticLaw::Response now, at_rest;
-        if (law.evaluate(deformation_gradient(n_per_cell,
-                                              u.values + s * n_per_cell,
-                                              side.gradients),
+        if (law.evaluate(displacement_gradient(n_per_cell,
+                                               u.values + s * n_per_cell,
+                                               side.gradients),
                          now) == Deformation::admissible &&
-            law.evaluate(dealii::unit_symmetric_tensor<2>(), at_rest) ==
-              Deformation::admissible)
+            law.evaluate(Tensor<2, 2>(), at_rest) == Deformation::admissible)
           result =
             std::max(result,
                      largest_row(now.tangent) / largest_row(at_rest.tangent));

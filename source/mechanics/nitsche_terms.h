@@ -79,14 +79,11 @@ namespace NMM
 
       /// grad u on a side, plus @p diagonal times I [-].
       dealii::Tensor<2, 2>
-      gradient(const LocalDisplacement &u,
-               const unsigned int       side,
-               const double             diagonal = 0.) const
+      gradient(const LocalDisplacement &u, const unsigned int side) const
       {
         return displacement_gradient(n_per_cell,
                                      u.values + side * n_per_cell,
-                                     point.sides[side].gradients,
-                                     diagonal);
+                                     point.sides[side].gradients);
       }
 
       /// The force gamma d - B {t} on the jump of v [Pa].

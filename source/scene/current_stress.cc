@@ -1,3 +1,5 @@
+#include <nmm/materials/hyperelastic_law.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -17,26 +19,17 @@ namespace NMM
 
     namespace
     {
-      Tensor<2, 2>
-      deformation_gradient(Tensor<2, 2> displacement_gradient)
-      {
-        displacement_gradient[0][0] += 1.;
-        displacement_gradient[1][1] += 1.;
-        return displacement_gradient;
-      }
-
-
       FieldSample::Stress
       finite_stress(const FiniteElasticity          &elasticity,
                     const std::vector<unsigned int> &region_to_material,
                     const unsigned int               element,
-                    const Tensor<2, 2>              &F)
+                    const Tensor<2, 2>              &H)
       {
         const ElasticityProblem &problem = elasticity.elasticity_problem();
         const unsigned int       region =
           elasticity.cover_system().manifold_mesh().region(element);
         FieldSample::Stress stress;
-        if (elasticity.law(region).cauchy_stress(F, stress.in_plane) !=
+        if (elasticity.law(region).cauchy_stress(H, stress.in_plane) !=
             Deformation::admissible)
         {
           // Where det F <= 0 there is no stress.
@@ -49,7 +42,7 @@ namespace NMM
           stress.zz =
             problem.materials[region_to_material[region]].initial_stress_zz(
               problem.plane_state) +
-            elasticity.law(region).plane_strain_stress(F);
+            elasticity.law(region).plane_strain_stress(H);
         return stress;
       }
 
@@ -132,7 +125,7 @@ namespace NMM
           return finite_stress(elasticity,
                                region_to_material,
                                element,
-                               deformation_gradient(gradient));
+                               gradient);
         };
       }
 
@@ -225,9 +218,9 @@ namespace NMM
         {
           const dealii::Quadrature<2> &rule = quadrature.rule(element);
           for (unsigned int q = 0; q < rule.size(); ++q)
-            sum += area_of_weight(mesh, element) * rule.weight(q) *
-                   dealii::determinant(deformation_gradient(
-                     field.gradient(element, rule.point(q))));
+            sum +=
+              area_of_weight(mesh, element) * rule.weight(q) *
+              (1. + determinant_change(field.gradient(element, rule.point(q))));
         }
         return dealii::Utilities::MPI::sum(sum, covers.communicator());
       }

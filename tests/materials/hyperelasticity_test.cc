@@ -43,25 +43,25 @@ namespace
   }
 
 
-  /// I plus entries up to 0.35.
+  /// A displacement gradient with entries up to 0.35.
   template <typename Generator>
   Tensor<2, 2>
-  random_deformation(Generator &generator)
+  random_gradient(Generator &generator)
   {
     std::uniform_real_distribution<double> random(-0.35, 0.35);
-    Tensor<2, 2> F = dealii::unit_symmetric_tensor<2>();
+    Tensor<2, 2>                           H;
     for (unsigned int i = 0; i < 2; ++i)
       for (unsigned int j = 0; j < 2; ++j)
-        F[i][j] += random(generator);
-    return F;
+        H[i][j] = random(generator);
+    return H;
   }
 
 
   HyperelasticLaw::Response
-  evaluate(const HyperelasticLaw &law, const Tensor<2, 2> &F)
+  evaluate(const HyperelasticLaw &law, const Tensor<2, 2> &H)
   {
     HyperelasticLaw::Response response;
-    EXPECT_TRUE(law.evaluate(F, response) == Deformation::admissible);
+    EXPECT_TRUE(law.evaluate(H, response) == Deformation::admissible);
     return response;
   }
 } // namespace
@@ -81,25 +81,25 @@ TEST(Hyperelasticity, DerivativesAgainstDifferences)
         const HyperelasticLaw &law = *pointer;
         for (unsigned int sample = 0; sample < 50; ++sample)
         {
-          const Tensor<2, 2> F = random_deformation(generator);
-          const auto         r = evaluate(law, F);
+          const Tensor<2, 2> H = random_gradient(generator);
+          const auto         r = evaluate(law, H);
           // stress alone is the same
           HyperelasticLaw::Response alone;
-          ASSERT_TRUE(law.evaluate_stress(F, alone) == Deformation::admissible);
+          ASSERT_TRUE(law.evaluate_stress(H, alone) == Deformation::admissible);
           EXPECT_NEAR(alone.energy, r.energy, 1e-12 * 1000.);
           EXPECT_LT((alone.stress - r.stress).norm(), 1e-12 * 1000.);
           for (unsigned int b = 0; b < 4; ++b)
           {
             Tensor<2, 2> G;
             G[b / 2][b % 2]  = 1.;
-            const auto plus  = evaluate(law, F + step * G);
-            const auto minus = evaluate(law, F - step * G);
+            const auto plus  = evaluate(law, H + step * G);
+            const auto minus = evaluate(law, H - step * G);
             // truncation 1e-10 times third derivatives, rounding 1e-11
             EXPECT_NEAR(r.stress[b / 2][b % 2],
                         (plus.energy - minus.energy) / (2. * step),
                         1e-5);
             double derivative[4][4];
-            ASSERT_TRUE(law.tangent_derivative(F, G, derivative) ==
+            ASSERT_TRUE(law.tangent_derivative(H, G, derivative) ==
                         Deformation::admissible);
             for (unsigned int a = 0; a < 4; ++a)
             {
@@ -125,14 +125,13 @@ TEST(Hyperelasticity, DerivativesAgainstDifferences)
 
 TEST(Hyperelasticity, SmallStrainLimitIsPlaneElasticity)
 {
-  const Tensor<2, 2> identity = dealii::unit_symmetric_tensor<2>();
   for (const std::shared_ptr<const MaterialLaw> &which : laws)
     for (const PlaneState state : states)
     {
       const Material         m       = test_material(which, true);
       const auto             pointer = m.hyperelastic_law(state);
       const HyperelasticLaw &law     = *pointer;
-      const auto             r       = evaluate(law, identity);
+      const auto             r       = evaluate(law, Tensor<2, 2>());
       EXPECT_LT((r.stress - Tensor<2, 2>(m.initial_stress)).norm(), 1e-10);
       // A : H = C : eps(H) + H S_0
       Tensor<2, 2> H;
@@ -164,9 +163,11 @@ TEST(Hyperelasticity, RotationTurnsStressAndKeepsEnergy)
       const HyperelasticLaw &law = *pointer;
       for (unsigned int sample = 0; sample < 20; ++sample)
       {
-        const Tensor<2, 2> F = random_deformation(generator);
-        const Tensor<2, 2> R = rotation(0.37 * sample);
-        const auto         r = evaluate(law, F), turned = evaluate(law, R * F);
+        const Tensor<2, 2> H        = random_gradient(generator);
+        const Tensor<2, 2> R        = rotation(0.37 * sample);
+        const Tensor<2, 2> I        = dealii::unit_symmetric_tensor<2>();
+        const Tensor<2, 2> turned_H = R * deformation_gradient(H) - I;
+        const auto r = evaluate(law, H), turned = evaluate(law, turned_H);
         EXPECT_NEAR(r.energy, turned.energy, 1e-11 * 1000.);
         EXPECT_LT((turned.stress - R * r.stress).norm(), 1e-11 * 1000.);
       }
@@ -186,9 +187,10 @@ TEST(Hyperelasticity, PlaneStressHasNoStressOutOfPlane)
   const double K = m.youngs_modulus / (3. * (1. - 2. * m.poissons_ratio));
   for (unsigned int sample = 0; sample < 50; ++sample)
   {
-    const Tensor<2, 2> F = random_deformation(generator);
+    const Tensor<2, 2> H = random_gradient(generator);
+    const Tensor<2, 2> F = deformation_gradient(H);
     double             s;
-    ASSERT_TRUE(law.out_of_plane_stretch(F, s) == Deformation::admissible);
+    ASSERT_TRUE(law.out_of_plane_stretch(H, s) == Deformation::admissible);
     const auto energy = [&](const double stretch) {
       const double J = stretch * dealii::determinant(F);
       return 0.5 * mu *
@@ -196,7 +198,7 @@ TEST(Hyperelasticity, PlaneStressHasNoStressOutOfPlane)
                 3.) +
              0.5 * K * (J - 1.) * (J - 1.);
     };
-    EXPECT_NEAR(evaluate(law, F).energy, energy(s), 1e-11 * 1000.);
+    EXPECT_NEAR(evaluate(law, H).energy, energy(s), 1e-11 * 1000.);
     EXPECT_NEAR((energy(s + 1e-5) - energy(s - 1e-5)) / 2e-5, 0., 1e-5);
   }
 }
@@ -211,11 +213,11 @@ TEST(Hyperelasticity, UniaxialCauchyStress)
   const HyperelasticLaw &law = *pointer;
   const double           E11 = 0.2, l1 = std::sqrt(1. + 2. * E11),
                l2 = std::sqrt(1. - 2. * 0.3 * E11);
-  Tensor<2, 2> F;
-  F[0][0] = l1;
-  F[1][1] = l2;
+  Tensor<2, 2> H;
+  H[0][0] = l1 - 1.;
+  H[1][1] = l2 - 1.;
   SymmetricTensor<2, 2> sigma;
-  ASSERT_TRUE(law.cauchy_stress(F, sigma) == Deformation::admissible);
+  ASSERT_TRUE(law.cauchy_stress(H, sigma) == Deformation::admissible);
   EXPECT_NEAR(sigma[0][0], l1 * 1000. * E11 / (l2 * l2), 1e-9);
   EXPECT_NEAR(sigma[1][1], 0., 1e-9);
 }
@@ -223,9 +225,8 @@ TEST(Hyperelasticity, UniaxialCauchyStress)
 
 TEST(Hyperelasticity, InvertedIsReported)
 {
-  Tensor<2, 2> F;
-  F[0][0] = 1.;
-  F[1][1] = -0.1;
+  Tensor<2, 2> H;
+  H[1][1] = -1.1;
   HyperelasticLaw::Response response;
   double                    derivative[4][4], s;
   SymmetricTensor<2, 2>     sigma;
@@ -234,14 +235,39 @@ TEST(Hyperelasticity, InvertedIsReported)
     const auto pointer =
       test_material(material_law("neo-Hookean"), false).hyperelastic_law(state);
     const HyperelasticLaw &law = *pointer;
-    EXPECT_TRUE(law.evaluate(F, response) == Deformation::inverted);
-    EXPECT_TRUE(law.evaluate_stress(F, response) == Deformation::inverted);
-    EXPECT_TRUE(law.tangent_derivative(F, F, derivative) ==
+    EXPECT_TRUE(law.evaluate(H, response) == Deformation::inverted);
+    EXPECT_TRUE(law.evaluate_stress(H, response) == Deformation::inverted);
+    EXPECT_TRUE(law.tangent_derivative(H, H, derivative) ==
                 Deformation::inverted);
-    EXPECT_TRUE(law.cauchy_stress(F, sigma) == Deformation::inverted);
+    EXPECT_TRUE(law.cauchy_stress(H, sigma) == Deformation::inverted);
   }
   const auto pointer = test_material(material_law("neo-Hookean"), false)
                          .hyperelastic_law(PlaneState::plane_stress);
   const HyperelasticLaw &law = *pointer;
-  EXPECT_TRUE(law.out_of_plane_stretch(F, s) == Deformation::inverted);
+  EXPECT_TRUE(law.out_of_plane_stretch(H, s) == Deformation::inverted);
+}
+
+
+// Hooke's stress, to the strain itself, down to the smallest strains: no digits are lost to F = I + H.
+TEST(Hyperelasticity, SmallStrainsKeepTheirDigits)
+{
+  std::mt19937 generator(20);
+  for (const std::shared_ptr<const MaterialLaw> &which : laws)
+    for (const PlaneState state : states)
+      for (const double size : {1e-6, 1e-9, 1e-13, 1e-40})
+      {
+        SCOPED_TRACE(size);
+        const Material     m     = test_material(which, false);
+        const auto         law   = m.hyperelastic_law(state);
+        const Tensor<2, 2> H     = size * random_gradient(generator);
+        const auto         r     = evaluate(*law, H);
+        const Tensor<2, 2> hooke = m.plane_elasticity(state).stress(H);
+        // E - sym(H) and further terms are of the order H^2, and rounding is 1e-16.
+        EXPECT_LT((r.stress - hooke).norm() / hooke.norm(), 10. * size + 1e-14);
+        // W loses the digits of H once, in its terms of first order.
+        if (size > 1e-9)
+          EXPECT_NEAR(r.energy / (0.5 * dealii::scalar_product(hooke, H)),
+                      1.,
+                      10. * size + 1e-15 / size);
+      }
 }

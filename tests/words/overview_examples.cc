@@ -122,7 +122,7 @@ namespace
 
 
   [[maybe_unused]] void
-  materials(const Tensor<2, 2> &F)
+  materials(const Tensor<2, 2> &H)
   {
     // clang-format off
     // Example of materials/material_law.h
@@ -134,7 +134,7 @@ namespace
     material.check(PlaneState::plane_strain);
     const auto law = material.hyperelastic_law(PlaneState::plane_strain);
     HyperelasticLaw::Response response;
-    if (law->evaluate(F, response) == Deformation::inverted)
+    if (law->evaluate(H, response) == Deformation::inverted)
       return;
     // End
     // clang-format on

@@ -11,16 +11,19 @@ namespace NMM
 {
   /**
    * A hyperelastic law in the plane. It gives the energy W per reference volume [Pa] as a
-   * function of the in-plane deformation gradient F = I + du/dX [-], with
+   * function of the in-plane displacement gradient H = du/dX [-], with F = I + H and
    * @f[ P = \frac{\partial W}{\partial F}, \qquad
    *     A = \frac{\partial P}{\partial F}. @f]
+   * It is given H instead of F, since F has lost the digits of H below 1e-16. A law that computes
+   * strains from H (green_strain(), determinant_change(), square_change()) has a stress whose relative
+   * error is that of rounding however small H is.
    *
    * The stretch of the third direction is s = 1 in plane strain; in plane stress
    * s follows from dW/ds = 0.
    *
    * An initial stress S_0 of the material adds S_0 : E to W, E being the Green-Lagrange strain. Each
-   * law adds it itself: S_0 : E to W, first_stress(F, S_0) to P, and add_geometric_stiffness(S_0, A)
-   * to A. At F = I a law has the stress S_0 and the moduli of PlaneElasticity.
+   * law adds it itself: S_0 : E to W, first_stress(H, S_0) to P, and add_geometric_stiffness(S_0, A)
+   * to A. At H = 0 a law has the stress S_0 and the moduli of PlaneElasticity.
    *
    * A law has no state and allocates no memory. An evaluation takes some 50 to 200 operations.
    */
@@ -42,22 +45,22 @@ namespace NMM
 
     /// Computes the energy and P, but not A. If it returns @c inverted, the response is undefined.
     virtual Deformation
-    evaluate_stress(const dealii::Tensor<2, 2> &F,
+    evaluate_stress(const dealii::Tensor<2, 2> &H,
                     Response                   &response) const = 0;
 
     /// Computes the energy, P and A. If it returns @c inverted, the response is undefined.
     virtual Deformation
-    evaluate(const dealii::Tensor<2, 2> &F, Response &response) const = 0;
+    evaluate(const dealii::Tensor<2, 2> &H, Response &response) const = 0;
 
     /// Computes the stretch s of the third direction in plane stress [-]. It is undefined if
     /// @c inverted is returned.
     virtual Deformation
-    plane_stress_stretch(const dealii::Tensor<2, 2> &F,
+    plane_stress_stretch(const dealii::Tensor<2, 2> &H,
                          double                     &stretch) const = 0;
 
     /// Cauchy stress sigma_zz in plane strain, without initial stress [Pa]. Requires det F > 0.
     virtual double
-    plane_strain_stress(const dealii::Tensor<2, 2> &F) const = 0;
+    plane_strain_stress(const dealii::Tensor<2, 2> &H) const = 0;
 
     /// Whether S = F^{-1} P is linear in the Green-Lagrange strain, with the moduli at rest, which
     /// makes conserving steps cheaper. False is always right.
@@ -67,24 +70,24 @@ namespace NMM
     /**
      * Computes the derivative of A in the direction @p G by a central difference [Pa], in the
      * order of Response::tangent. It is exact to rounding for St. Venant-Kirchhoff's law, whose A
-     * is quadratic in F, and has a relative error of 1e-8 otherwise.
+     * is quadratic in H, and has a relative error of 1e-8 otherwise.
      */
     Deformation
-    tangent_derivative(const dealii::Tensor<2, 2> &F,
+    tangent_derivative(const dealii::Tensor<2, 2> &H,
                        const dealii::Tensor<2, 2> &G,
                        double (&derivative)[4][4]) const;
 
     /// Computes the stretch s of the third direction [-]: 1 in plane strain,
     /// plane_stress_stretch() in plane stress.
     Deformation
-    out_of_plane_stretch(const dealii::Tensor<2, 2> &F, double &stretch) const;
+    out_of_plane_stretch(const dealii::Tensor<2, 2> &H, double &stretch) const;
 
     /// Computes the in-plane Cauchy stress sigma = P F^T / (s det F), initial stress included [Pa].
     Deformation
-    cauchy_stress(const dealii::Tensor<2, 2>    &F,
+    cauchy_stress(const dealii::Tensor<2, 2>    &H,
                   dealii::SymmetricTensor<2, 2> &stress) const;
 
-    /// The elastic constants at F = I.
+    /// The elastic constants at H = 0.
     const PlaneElasticity &
     small_strain() const
     {
@@ -97,7 +100,7 @@ namespace NMM
 
     /// Whether the third direction is free of stress or of strain.
     PlaneState plane_state;
-    /// The elastic constants at F = I [Pa].
+    /// The elastic constants at H = 0 [Pa].
     PlaneElasticity elasticity;
     /// nu [-].
     double poissons_ratio;
@@ -109,12 +112,23 @@ namespace NMM
   /// @name Parts that laws share
   /// @{
 
+  /// The deformation gradient F = I + H [-].
+  inline dealii::Tensor<2, 2>
+  deformation_gradient(dealii::Tensor<2, 2> H)
+  {
+    H[0][0] += 1.;
+    H[1][1] += 1.;
+    return H;
+  }
+
+
   /// The first Piola-Kirchhoff stress P = F S [Pa] of the second one @p S [Pa].
   inline dealii::Tensor<2, 2>
-  first_stress(const dealii::Tensor<2, 2>          &F,
+  first_stress(const dealii::Tensor<2, 2>          &H,
                const dealii::SymmetricTensor<2, 2> &S)
   {
-    dealii::Tensor<2, 2> P;
+    const dealii::Tensor<2, 2> F = deformation_gradient(H);
+    dealii::Tensor<2, 2>       P;
     for (unsigned int i = 0; i < 2; ++i)
       for (unsigned int J = 0; J < 2; ++J)
         P[i][J] = F[i][0] * S[0][J] + F[i][1] * S[1][J];
@@ -135,15 +149,31 @@ namespace NMM
   }
 
 
-  /// The Green-Lagrange strain E = (F^T F - I) / 2 [-].
+  /// The Green-Lagrange strain E = (F^T F - I) / 2 = (H + H^T + H^T H) / 2 [-].
   inline dealii::SymmetricTensor<2, 2>
-  green_strain(const dealii::Tensor<2, 2> &F)
+  green_strain(const dealii::Tensor<2, 2> &H)
   {
     dealii::SymmetricTensor<2, 2> E;
-    E[0][0] = 0.5 * (F[0][0] * F[0][0] + F[1][0] * F[1][0] - 1.);
-    E[1][1] = 0.5 * (F[0][1] * F[0][1] + F[1][1] * F[1][1] - 1.);
-    E[0][1] = 0.5 * (F[0][0] * F[0][1] + F[1][0] * F[1][1]);
+    E[0][0] = H[0][0] + 0.5 * (H[0][0] * H[0][0] + H[1][0] * H[1][0]);
+    E[1][1] = H[1][1] + 0.5 * (H[0][1] * H[0][1] + H[1][1] * H[1][1]);
+    E[0][1] = 0.5 * (H[0][1] + H[1][0] + H[0][0] * H[0][1] + H[1][0] * H[1][1]);
     return E;
+  }
+
+
+  /// det F - 1 [-].
+  inline double
+  determinant_change(const dealii::Tensor<2, 2> &H)
+  {
+    return dealii::trace(H) + dealii::determinant(H);
+  }
+
+
+  /// F : F - 2 [-].
+  inline double
+  square_change(const dealii::Tensor<2, 2> &H)
+  {
+    return 2. * dealii::trace(H) + H.norm_square();
   }
   /// @}
 } // namespace NMM

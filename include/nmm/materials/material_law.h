@@ -41,7 +41,7 @@ namespace NMM
    *   material.check(PlaneState::plane_strain);
    *   const auto law = material.hyperelastic_law(PlaneState::plane_strain);
    *   HyperelasticLaw::Response response;
-   *   if (law->evaluate(F, response) == Deformation::inverted)
+   *   if (law->evaluate(H, response) == Deformation::inverted)
    *     return; // det F <= 0: the step was too large
    * @endcode
    *

@@ -11,8 +11,6 @@
 
 namespace NMM
 {
-  using are_finite;
-  using require_in_checkpoint;
   using internal::refuse_checkpoint;
 
   namespace

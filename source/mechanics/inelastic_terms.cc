@@ -316,12 +316,11 @@ namespace NMM
       subtract(response);
       return state;
     }
-    HyperelasticLaw::Response  response;
-    const HyperelasticLaw     &law   = *elastic->region_to_law[region];
-    const dealii::Tensor<2, 2> F     = with_identity(gradients.end);
-    const Deformation          state = excess.has_tangent
-                                         ? law.evaluate(F, response)
-                                         : law.evaluate_stress(F, response);
+    HyperelasticLaw::Response response;
+    const HyperelasticLaw    &law   = *elastic->region_to_law[region];
+    const Deformation         state = excess.has_tangent
+                                        ? law.evaluate(gradients.end, response)
+                                        : law.evaluate_stress(gradients.end, response);
     excess.energy -= response.energy;
     subtract(response);
     return state;

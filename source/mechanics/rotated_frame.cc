@@ -1,3 +1,5 @@
+#include <nmm/materials/hyperelastic_law.h>
+
 #include <cmath>
 #include <mechanics/conserving_terms.h>
 #include <mechanics/rotated_frame.h>
@@ -34,7 +36,7 @@ namespace NMM
     Deformation
     RotatedFrame::reinit(const Tensor<2, 2> &gradient)
     {
-      F = with_identity(gradient);
+      F = deformation_gradient(gradient);
       if (!(dealii::determinant(F) > 0.))
         return Deformation::inverted;
       const double c = F[0][0] + F[1][1], s = F[1][0] - F[0][1],

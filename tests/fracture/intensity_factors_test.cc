@@ -459,8 +459,8 @@ namespace
 
 
   // The stress is that of the same crack in one material: K_I = sigma (pi a)^(1/2), K_II = 0. The
-  // jump of the initial stress is 4 times sigma; without its terms on the interface K_I is wrong by a
-  // tenth to a half.
+  // jump of the initial stress is 4 times sigma; without its terms on the interface K_I is wrong by
+  // a tenth to a half.
   TEST(IntensityFactors, RegionsOfUnlikeInitialStress)
   {
     for (const TwoRegions &regions : two_regions)
@@ -483,8 +483,8 @@ namespace
   }
 
 
-  // A plate whose initial stress sigma_22 grows linearly along the crack, by its equivalent loads: the
-  // stress is self-equilibrated, and -sigma_22 n on the faces is a pressure.
+  // A plate whose initial stress sigma_22 grows linearly along the crack, by its equivalent loads:
+  // the stress is self-equilibrated, and -sigma_22 n on the faces is a pressure.
   TEST(IntensityFactors, InitialStressThatVariesByItsEquivalentLoads)
   {
     for (const double growth : {0.5, 0.25})

@@ -1,5 +1,5 @@
-// Laws of which only the energy is written: against the same laws written by hand, and against Rivlin's
-// solutions.
+// Laws of which only the energy is written: against the same law written by hand, and against
+// Rivlin's solution.
 
 #include <nmm/materials/energy_law.h>
 

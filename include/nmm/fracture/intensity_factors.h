@@ -159,22 +159,22 @@ namespace NMM
    * region CrackTip::region, and D is that of another region minus @f$\sigma^0@f$. Without D the
    * stress @f$\sigma-D@f$ satisfies the equations above with the loads t - D n on the faces
    * and with the line force @f$-(D^+n^++D^-n^-)@f$ on interfaces, n pointing out of the region of
-   * each side. The elasticity is the same on both sides, so that P_j n_j jumps on an interface by the
-   * work of this line force on a_{,1} only, though du/dx jumps, too. Thus I gets
+   * each side. The elasticity is the same on both sides, so that P_j n_j jumps on an interface by
+   * the work of this line force on a_{,1} only, though du/dx jumps, too. Thus I gets
    * @f[ I_D = \int_{\mathrm{faces}} q D_{ij}n_ja_{i,1}\,ds
              + \int_{\mathrm{interfaces}} q(D^+_{ij}n^+_j+D^-_{ij}n^-_j)a_{i,1}\,ds. @f]
    * The integrand grows like r^(-1/2) for K. For T it grows like 1/r: in general sigma_11 has a
    * logarithm there, and it is another one in each region, so that T is not defined.
    *
    * Material has no initial stress that varies within a region. A program gives such a stress
-   * sigma^0(x) by its equivalent loads, the body force f + div sigma^0 and the traction t - sigma^0 n
-   * on faces and boundaries, which have the same displacements and the same factors.
+   * sigma^0(x) by its equivalent loads, the body force f + div sigma^0 and the traction
+   * t - sigma^0 n on faces and boundaries, with the same displacements and the same factors.
    *
    * In motion the inertia -rho d^2u/dt^2 is a part of the body force; at the tip it is left in the
    * part that varies. The factors are those of the crack as it stands still.
    *
-   * Limits: displacements are small, and initial stress is uniform in each region at the tip. Within
-   * the disk there is no inelastic strain, no viscous stress, and no curve but this crack
+   * Limits: displacements are small, and initial stress is uniform in each region at the tip.
+   * Within the disk there is no inelastic strain, no viscous stress, and no curve but this crack
    * (CrackTip::free_radius) and interfaces through its tip between materials of the same elasticity
    * (has_intensity_factors()), where traction and displacement are continuous.
    *

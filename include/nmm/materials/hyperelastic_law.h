@@ -15,8 +15,8 @@ namespace NMM
    * @f[ P = \frac{\partial W}{\partial F}, \qquad
    *     A = \frac{\partial P}{\partial F}. @f]
    * It is given H instead of F, since F has lost the digits of H below 1e-16. A law that computes
-   * strains from H (green_strain(), determinant_change(), square_change()) has a stress whose relative
-   * error is that of rounding however small H is.
+   * strains from H (green_strain(), determinant_change(), square_change()) has a stress whose
+   * relative error is that of rounding however small H is.
    *
    * The stretch of the third direction is s = 1 in plane strain; in plane stress
    * s follows from dW/ds = 0.

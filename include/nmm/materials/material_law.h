@@ -48,10 +48,10 @@ namespace NMM
    * To add a law, derive a class in a file of its own, and name it at the end of material_laws() in
    * source/materials/material_law.cc. Scenes then know the law and its parameters(). A law for large
    * deformations only overrides hyperelastic_law(), and has_small_strains() to return false, as
-   * NeoHookeLaw does; its evaluation is a class derived from HyperelasticLaw in the same file; or it derives from
-   * EnergyLaw (energy_law.h) and writes its energy alone. One
-   * that yields overrides is_inelastic(), inelastic_law() and reduce_strength(), as
-   * MohrCoulombLaw does. The other places are the list of sources in
+   * NeoHookeLaw does; its evaluation is a class derived from HyperelasticLaw in the same file. Or it
+   * derives from EnergyLaw (energy_law.h) and writes its energy alone. One that yields overrides
+   * is_inelastic(), inelastic_law() and reduce_strength(), as MohrCoulombLaw does. The other places
+   * are the list of sources in
    * source/materials/CMakeLists.txt, a test in tests/materials, the table of laws in
    * doc/scene-format.md, doc/parameters.md (`nmm --print-parameters=markdown`) and a file in
    * doc/news.

@@ -30,9 +30,9 @@ namespace NMM
     , multipliers(surface, parameters.penetration_tolerance)
     , maker(surface, search, parameters, memory, multipliers)
     , projector(surface, search, maker, memory, parameters)
-    , sums(surface, search, maker)
     , active(surface)
     , matrix(surface, constraints, search, memory.stick_places, active)
+    , sums(surface, search, maker)
   {
     if (parameters.reach == 0.)
     {

@@ -80,7 +80,6 @@ TEST(InelasticMotion, AccountClosesMPI)
     // gravity adds what it does while the block leans and, in finite displacements, sinks
     EXPECT_LT(integrator.account().dissipated,
               start + integrator.account().external_work);
-    EXPECT_LT(integrator.account().external_work, 0.3 * start);
   }
 }
 

@@ -219,13 +219,14 @@ namespace NMM
   }
 
 
-  std::vector<unsigned int>
-  Contact::Data::active_points() const
+  const std::vector<unsigned int> &
+  Contact::Data::active_points()
   {
-    std::vector<unsigned int> result;
-    active.for_each_point(points.size(),
-                          [&](const unsigned int q) { result.push_back(q); });
-    return result;
+    listed_points.clear();
+    active.for_each_point(points.size(), [&](const unsigned int q) {
+      listed_points.push_back(q);
+    });
+    return listed_points;
   }
 
 

@@ -299,9 +299,9 @@ namespace NMM
     double
     accept_shear(unsigned int q);
 
-    /// Points that belong to an active body, ascending.
-    std::vector<unsigned int>
-    active_points() const;
+    /// Points that belong to an active body, ascending; valid until the next call.
+    const std::vector<unsigned int> &
+    active_points();
 
     /// List the points of each body if there are inactive bodies.
     void
@@ -397,6 +397,8 @@ namespace NMM
     std::vector<dealii::Tensor<1, 2>> nodal;
     std::vector<ContactPoint>         points;
     std::vector<PointData>            point_data;
+    /// See active_points(); its memory is kept, because assemblies must not allocate.
+    std::vector<unsigned int> listed_points;
     /// How far the faces of each body may move until the next search, and the largest sum of two
     /// of these ways [m].
     std::vector<double> reaches;

@@ -467,7 +467,7 @@ namespace NMM
   Contact::Data::find_ends()
   {
     step.near_points.clear();
-    const std::vector<unsigned int> numbers = active_points();
+    const std::vector<unsigned int> &numbers = active_points();
     for_each_in_order<PointEnd>(
       0,
       numbers.size(),

@@ -130,9 +130,7 @@ TEST(MohrCoulomb, ReturnsToTheYieldSurface)
         EXPECT_LT((r.stress - hooke).norm(), 1e-11);
         EXPECT_NEAR(r.stress_zz, p + 2. * C.mu * e_zz, 1e-11);
         EXPECT_EQ(is_thin ? r.stress_zz : r.strain_zz, 0.);
-        EXPECT_NEAR(r.energy,
-                    0.5 * (r.stress * e + r.stress_zz * e_zz),
-                    1e-13);
+        EXPECT_NEAR(r.energy, 0.5 * (r.stress * e + r.stress_zz * e_zz), 1e-13);
 
         const double dissipated =
           r.stress * (r.state.plastic_strain - state.plastic_strain) +

@@ -191,11 +191,12 @@ namespace NMM
       std::istringstream in(text);
       reader.read_msh(in);
     }
+    // deal.II 9.6 refuses triangles without area here, and 9.4 does not.
     catch (const std::exception &)
     {
       refuse(
         "the mesh file cannot be read: its lists of nodes and elements do "
-        "not fit together, or are damaged",
+        "not fit together, or are damaged, or a triangle has no area",
         file_name);
     }
     check_cells(*triangulation, file_name);

@@ -85,11 +85,13 @@ namespace NMM
     Multipliers::Multipliers(const ContactSurface &surface,
                              const double          tolerance)
       : tolerance(tolerance)
-      , space(surface)
-      , values(are_used() ? space.size() : 0, 0.)
-      , factors(values.size(), 1.)
-      , is_stiff_enough(values.size(), false)
     {
+      if (!are_used())
+        return;
+      space.emplace(surface);
+      values.assign(space->size(), 0.);
+      factors.assign(space->size(), 1.);
+      is_stiff_enough.assign(space->size(), false);
     }
 
 
@@ -129,7 +131,7 @@ namespace NMM
       std::vector<double> sums(4 * n, 0.);
       for (const Point &point : points)
       {
-        const auto  &f     = space[point.slave];
+        const auto  &f     = (*space)[point.slave];
         const double share = f.share(point.s);
         const auto   add   = [&](const unsigned int i, const double weight) {
           sums[i] -= point.stiffness * weight * point.gap;

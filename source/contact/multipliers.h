@@ -3,6 +3,7 @@
 
 #include <nmm/contact/contact_surface.h>
 
+#include <optional>
 #include <vector>
 
 namespace NMM
@@ -85,18 +86,18 @@ namespace NMM
         return tolerance > 0.;
       }
 
-      /// Multiplier at a place of a slave [Pa].
+      /// Multiplier at a place of a slave [Pa], if they are used.
       double
       value(const unsigned int edge, const double s) const
       {
-        return space.value(values, edge, s);
+        return space->value(values, edge, s);
       }
 
       /// Factor by which the normal spring at a place of a slave is stiffer than its law [-].
       double
       stiffening(const unsigned int edge, const double s) const
       {
-        return space.value(factors, edge, s);
+        return space->value(factors, edge, s);
       }
 
       /// Springs are those of their laws from now on. The solution depends on factors within
@@ -145,8 +146,9 @@ namespace NMM
       void
       stiffen(const std::vector<double> &penetrations);
 
-      double          tolerance;
-      MultiplierSpace space;
+      double tolerance;
+      /// Empty for the penalty method.
+      std::optional<MultiplierSpace> space;
       /// By function: multipliers [Pa], factors on the stiffness [-] and weighted penetrations of
       /// the last update [m]; whether the springs have been seen to be stiff enough.
       std::vector<double> values, factors, last_penetrations;

@@ -9,8 +9,8 @@
 // @sect3{Include files}
 
 #include <nmm/base/program.h>
-#include <nmm/contact/contact_statics.h>
-#include <nmm/contact/coulomb_law.h>
+#include <nmm/contact/assembly/statics.h>
+#include <nmm/contact/law/coulomb_law.h>
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/cover_system.h>
 #include <nmm/covers/graded_mesh.h>

@@ -8,9 +8,9 @@
 // @sect3{Include files}
 
 #include <nmm/base/program.h>
+#include <nmm/contact/assembly/term.h>
 #include <nmm/contact/contact.h>
-#include <nmm/contact/contact_term.h>
-#include <nmm/contact/coulomb_law.h>
+#include <nmm/contact/law/coulomb_law.h>
 #include <nmm/covers/aggregation.h>
 #include <nmm/covers/cover_system.h>
 #include <nmm/covers/own_meshes.h>

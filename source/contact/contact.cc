@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <contact/contact_data.h>
+#include <contact/data.h>
 #include <mechanics/nodal_values.h>
 #include <utility>
 

@@ -1,6 +1,6 @@
 #include <nmm/base/archive.h>
 #include <nmm/base/exceptions.h>
-#include <nmm/contact/initial_stress.h>
+#include <nmm/contact/surface/initial_stress.h>
 #include <nmm/dynamics/strength_reduction.h>
 
 #include <deal.II/base/mpi.h>

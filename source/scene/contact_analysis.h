@@ -1,8 +1,8 @@
 #ifndef nmm_source_scene_contact_analysis_h
 #define nmm_source_scene_contact_analysis_h
 
-#include <nmm/contact/contact_statics.h>
-#include <nmm/contact/contact_term.h>
+#include <nmm/contact/assembly/statics.h>
+#include <nmm/contact/assembly/term.h>
 #include <nmm/fracture/intensity_factors.h>
 #include <nmm/output/contact_output.h>
 #include <nmm/output/progress.h>

@@ -1,7 +1,7 @@
 #include <nmm/base/archive.h>
 #include <nmm/base/exceptions.h>
 #include <nmm/base/stop.h>
-#include <nmm/contact/carried_history.h>
+#include <nmm/contact/state/carried_history.h>
 #include <nmm/mechanics/carried_covers.h>
 #include <nmm/output/csv_series.h>
 

@@ -1,7 +1,7 @@
 #ifndef nmm_source_scene_dynamic_analysis_h
 #define nmm_source_scene_dynamic_analysis_h
 
-#include <nmm/contact/contact_history.h>
+#include <nmm/contact/state/history.h>
 #include <nmm/dynamics/leaving_blocks.h>
 #include <nmm/dynamics/relaxation.h>
 #include <nmm/mechanics/solid_term.h>

@@ -1,6 +1,6 @@
 #include <nmm/base/archive.h>
 #include <nmm/base/exceptions.h>
-#include <nmm/contact/carried_history.h>
+#include <nmm/contact/state/carried_history.h>
 #include <nmm/dynamics/checkpoint.h>
 #include <nmm/fracture/tip_grading.h>
 #include <nmm/mechanics/carried_covers.h>

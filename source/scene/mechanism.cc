@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <contact/collapse.h>
+#include <contact/diagnostics/collapse.h>
 #include <scene/mechanism.h>
 #include <sstream>
 

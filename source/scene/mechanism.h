@@ -1,7 +1,7 @@
 #ifndef nmm_source_scene_mechanism_h
 #define nmm_source_scene_mechanism_h
 
-#include <nmm/contact/contact_statics.h>
+#include <nmm/contact/assembly/statics.h>
 #include <nmm/mechanics/block_motion.h>
 #include <nmm/mechanics/finite_elasticity.h>
 #include <nmm/quadrature/element_quadrature.h>

@@ -1,7 +1,7 @@
 #include <nmm/base/exceptions.h>
-#include <nmm/contact/coulomb_law.h>
-#include <nmm/contact/initial_stress.h>
-#include <nmm/contact/locked_corners.h>
+#include <nmm/contact/diagnostics/locked_corners.h>
+#include <nmm/contact/law/coulomb_law.h>
+#include <nmm/contact/surface/initial_stress.h>
 #include <nmm/covers/crack_tip.h>
 #include <nmm/scene/parameter_tree.h>
 #include <nmm/scene/scene.h>

@@ -1,5 +1,5 @@
 #include <nmm/base/exceptions.h>
-#include <nmm/contact/coulomb_law.h>
+#include <nmm/contact/law/coulomb_law.h>
 #include <nmm/materials/material_law.h>
 #include <nmm/scene/scene_parameters.h>
 

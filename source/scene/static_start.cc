@@ -1,7 +1,7 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/stop.h>
-#include <nmm/contact/contact_statics.h>
-#include <nmm/contact/contact_term.h>
+#include <nmm/contact/assembly/statics.h>
+#include <nmm/contact/assembly/term.h>
 #include <nmm/dynamics/relaxation.h>
 #include <nmm/mechanics/mass_matrix.h>
 #include <nmm/mechanics/nonlinear_statics.h>

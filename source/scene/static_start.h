@@ -1,7 +1,7 @@
 #ifndef nmm_source_scene_static_start_h
 #define nmm_source_scene_static_start_h
 
-#include <nmm/contact/contact_term.h>
+#include <nmm/contact/assembly/term.h>
 #include <nmm/covers/cover_system.h>
 #include <nmm/dynamics/time_integrator.h>
 #include <nmm/mechanics/finite_elasticity.h>

@@ -1,7 +1,7 @@
 // Which faces the search takes for candidates, and what it costs.
 
 #include <contact/contact_model.h>
-#include <contact/contact_search.h>
+#include <contact/detection/search.h>
 
 using namespace NMM;
 using namespace NMM::Test;

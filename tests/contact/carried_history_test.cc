@@ -1,7 +1,7 @@
 // The history of contact after a solid has been cut anew.
 
-#include <nmm/contact/carried_history.h>
-#include <nmm/contact/contact_time_step.h>
+#include <nmm/contact/assembly/time_step.h>
+#include <nmm/contact/state/carried_history.h>
 
 #include <contact/contact_model.h>
 #include <support/contact_bars/moving_bodies.h>

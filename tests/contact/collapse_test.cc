@@ -1,7 +1,7 @@
 // Mechanisms of rigid blocks.
 
 #include <cmath>
-#include <contact/collapse.h>
+#include <contact/diagnostics/collapse.h>
 #include <gtest/gtest.h>
 #include <limits>
 

@@ -1,7 +1,7 @@
 #ifndef nmm_tests_contact_contact_model_h
 #define nmm_tests_contact_contact_model_h
 
-#include <nmm/contact/contact_statics.h>
+#include <nmm/contact/assembly/statics.h>
 #include <nmm/covers/graded_mesh.h>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // What passes through each other in a step, from positions at its ends alone.
 
 #include <cmath>
-#include <contact/contact_crossings.h>
+#include <contact/detection/crossings.h>
 #include <contact/random_polygons.h>
 
 using namespace NMM;

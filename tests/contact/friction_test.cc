@@ -1,7 +1,7 @@
 // Statics with friction, wrong input, and that results do not depend on chance.
 
-#include <nmm/contact/barton_bandis_law.h>
-#include <nmm/contact/slip_weakening_law.h>
+#include <nmm/contact/law/barton_bandis_law.h>
+#include <nmm/contact/law/slip_weakening_law.h>
 
 #include <contact/contact_model.h>
 #include <support/coulomb.h>

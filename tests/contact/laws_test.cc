@@ -1,9 +1,9 @@
 // Contact laws on their own: potentials, strengths and their derivatives, published formulas.
 
 #include <nmm/base/exceptions.h>
-#include <nmm/contact/barton_bandis_law.h>
-#include <nmm/contact/coulomb_law.h>
-#include <nmm/contact/slip_weakening_law.h>
+#include <nmm/contact/law/barton_bandis_law.h>
+#include <nmm/contact/law/coulomb_law.h>
+#include <nmm/contact/law/slip_weakening_law.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Corners that cannot slide without going into the ground.
 
-#include <nmm/contact/locked_corners.h>
+#include <nmm/contact/diagnostics/locked_corners.h>
 
 #include <contact/contact_model.h>
 

@@ -1,9 +1,9 @@
 // Detection against brute force.
 
-#include <nmm/contact/contact_time_step.h>
+#include <nmm/contact/assembly/time_step.h>
 
 #include <contact/contact_model.h>
-#include <contact/contact_search.h>
+#include <contact/detection/search.h>
 #include <contact/random_polygons.h>
 
 using namespace NMM;

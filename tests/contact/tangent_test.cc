@@ -1,9 +1,9 @@
 // Forces and tangent of contact: derivatives against differences, and that the
 // two bodies' forces are in balance.
 
-#include <nmm/contact/barton_bandis_law.h>
-#include <nmm/contact/contact_time_step.h>
-#include <nmm/contact/slip_weakening_law.h>
+#include <nmm/contact/assembly/time_step.h>
+#include <nmm/contact/law/barton_bandis_law.h>
+#include <nmm/contact/law/slip_weakening_law.h>
 
 #include <contact/contact_model.h>
 #include <support/coulomb.h>

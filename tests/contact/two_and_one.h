@@ -1,7 +1,7 @@
 #ifndef nmm_tests_contact_two_and_one_h
 #define nmm_tests_contact_two_and_one_h
 
-#include <nmm/contact/contact_time_step.h>
+#include <nmm/contact/assembly/time_step.h>
 
 #include <contact/contact_model.h>
 #include <memory>

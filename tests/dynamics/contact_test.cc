@@ -1,5 +1,5 @@
 // Contact in time: friction on an incline, impact.
-#include <nmm/contact/contact_term.h>
+#include <nmm/contact/assembly/term.h>
 #include <nmm/covers/aggregation.h>
 
 #include <dynamics/dynamic_model.h>

@@ -1,7 +1,7 @@
 // Every law of contact in every scheme: a drag of known slip, and a slide down an incline.
 
-#include <nmm/contact/barton_bandis_law.h>
-#include <nmm/contact/slip_weakening_law.h>
+#include <nmm/contact/law/barton_bandis_law.h>
+#include <nmm/contact/law/slip_weakening_law.h>
 
 #include <gtest/gtest.h>
 #include <support/contact_bars/moving_bodies.h>

@@ -1,5 +1,5 @@
 // Blocks that leave the scene: who they are, what goes with them, what stays.
-#include <nmm/contact/contact_term.h>
+#include <nmm/contact/assembly/term.h>
 #include <nmm/covers/aggregation.h>
 #include <nmm/dynamics/checkpoint.h>
 #include <nmm/dynamics/leaving_blocks.h>

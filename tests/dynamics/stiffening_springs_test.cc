@@ -1,6 +1,6 @@
 // Motion on contact springs that stiffen.
 
-#include <nmm/contact/barton_bandis_law.h>
+#include <nmm/contact/law/barton_bandis_law.h>
 
 #include <gtest/gtest.h>
 #include <support/contact_bars/moving_bodies.h>

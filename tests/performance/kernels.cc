@@ -11,7 +11,7 @@
 #include <nmm/materials/material_law.h>
 #include <nmm/quadrature/element_rule_builder.h>
 
-#include <contact/contact_terms.h>
+#include <contact/assembly/point_terms.h>
 #include <iostream>
 #include <mechanics/finite_terms.h>
 #include <mechanics/linear_terms.h>

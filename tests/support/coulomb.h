@@ -2,7 +2,7 @@
 #define nmm_tests_support_coulomb_h
 
 #include <nmm/contact/contact.h>
-#include <nmm/contact/coulomb_law.h>
+#include <nmm/contact/law/coulomb_law.h>
 
 namespace NMM
 {

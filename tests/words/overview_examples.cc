@@ -2,9 +2,9 @@
 // "// Example of HEADER" and "// End", in a function with what it needs. The test compares both texts.
 
 #include <nmm/base/program.h>
-#include <nmm/contact/contact_statics.h>
-#include <nmm/contact/contact_term.h>
-#include <nmm/contact/coulomb_law.h>
+#include <nmm/contact/assembly/statics.h>
+#include <nmm/contact/assembly/term.h>
+#include <nmm/contact/law/coulomb_law.h>
 #include <nmm/covers/graded_mesh.h>
 #include <nmm/dynamics/step_control.h>
 #include <nmm/fracture/fracture.h>

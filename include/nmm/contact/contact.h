@@ -2,11 +2,11 @@
 #define nmm_contact_contact_h
 
 #include <nmm/base/step_fault.h>
-#include <nmm/contact/contact_history.h>
-#include <nmm/contact/contact_integration.h>
-#include <nmm/contact/contact_law.h>
-#include <nmm/contact/contact_surface.h>
-#include <nmm/contact/locked_corners.h>
+#include <nmm/contact/diagnostics/locked_corners.h>
+#include <nmm/contact/law/law.h>
+#include <nmm/contact/state/history.h>
+#include <nmm/contact/surface/integration.h>
+#include <nmm/contact/surface/surface.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/lac/affine_constraints.h>

@@ -1,7 +1,7 @@
 #ifndef nmm_dynamics_relaxation_h
 #define nmm_dynamics_relaxation_h
 
-#include <nmm/contact/contact_term.h>
+#include <nmm/contact/assembly/term.h>
 #include <nmm/dynamics/step_control.h>
 
 #include <functional>

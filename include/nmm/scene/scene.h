@@ -1,8 +1,8 @@
 #ifndef nmm_scene_scene_h
 #define nmm_scene_scene_h
 
+#include <nmm/contact/assembly/term.h>
 #include <nmm/contact/contact.h>
-#include <nmm/contact/contact_term.h>
 #include <nmm/geometry/physical_mesh.h>
 #include <nmm/mechanics/loading.h>
 #include <nmm/scene/parameter_tree.h>

@@ -1,8 +1,8 @@
 #ifndef nmm_scene_scene_parameters_contact_h
 #define nmm_scene_scene_parameters_contact_h
 
-#include <nmm/contact/contact_integration.h>
-#include <nmm/contact/contact_law.h>
+#include <nmm/contact/law/law.h>
+#include <nmm/contact/surface/integration.h>
 
 #include <array>
 #include <map>

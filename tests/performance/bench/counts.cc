@@ -1,7 +1,7 @@
 #include "counts.h"
 
 #include <nmm/base/exceptions.h>
-#include <nmm/contact/contact_statics.h>
+#include <nmm/contact/assembly/statics.h>
 
 #include "report.h"
 #include "staged_model.h"

@@ -2,7 +2,7 @@
 
 #include "step-nmm-3/hertz.h"
 
-#include <nmm/contact/contact_statics.h>
+#include <nmm/contact/assembly/statics.h>
 
 #include "staged_model.h"
 #include <support/coulomb.h>

@@ -1,7 +1,7 @@
 #ifndef nmm_tests_performance_bench_staged_model_h
 #define nmm_tests_performance_bench_staged_model_h
 
-#include <nmm/contact/contact_surface.h>
+#include <nmm/contact/surface/surface.h>
 #include <nmm/covers/graded_mesh.h>
 
 #include "measure.h"

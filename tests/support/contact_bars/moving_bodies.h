@@ -1,7 +1,7 @@
 #ifndef nmm_tests_support_contact_bars_moving_bodies_h
 #define nmm_tests_support_contact_bars_moving_bodies_h
 
-#include <nmm/contact/contact_term.h>
+#include <nmm/contact/assembly/term.h>
 #include <nmm/dynamics/relaxation.h>
 #include <nmm/mechanics/solid_term.h>
 

@@ -30,8 +30,8 @@ namespace NMM
     , multipliers(surface, parameters.penetration_tolerance)
     , maker(surface, search, parameters, memory, multipliers)
     , projector(surface, search, maker, memory, parameters)
-    , active(surface)
-    , matrix(surface, constraints, search, memory.stick_places, active)
+    , chosen(surface)
+    , matrix(surface, constraints, search, memory.stick_places, chosen)
     , sums(surface, search, maker)
   {
     if (parameters.reach == 0.)
@@ -171,7 +171,7 @@ namespace NMM
       Parallel::max(d.search.slaves().empty() ? 0U : 1U, d.communicator) == 0U;
     if (!d.is_idle)
       d.matrix.update_candidates();
-    d.active.clear_points();
+    d.chosen.clear_points();
     d.list_points_of_bodies();
   }
 
@@ -220,10 +220,10 @@ namespace NMM
 
 
   const std::vector<unsigned int> &
-  Contact::Data::active_points()
+  Contact::Data::chosen_points()
   {
     listed_points.clear();
-    active.for_each_point(points.size(), [&](const unsigned int q) {
+    chosen.for_each_point(points.size(), [&](const unsigned int q) {
       listed_points.push_back(q);
     });
     return listed_points;
@@ -325,9 +325,6 @@ namespace NMM
     sums.add(point, point_data[q], forces, is_between());
     if (!forces.has_forces)
       return;
-    active.note_pressed(point.edge, point.master);
-    if (with_tangent && is_between())
-      active.note_coupled(point.edge, point.master);
     matrix.add(forces.local);
   }
 
@@ -383,7 +380,7 @@ namespace NMM
     if (d.problem != Data::Problem::motion_of_frozen_geometry)
       d.set_admitted_depth();
     d.matrix.begin_assembly(with_tangent);
-    d.add_points(d.active_points(),
+    d.add_points(d.chosen_points(),
                  with_tangent,
                  [&](const unsigned int q, Data::PointForces &forces) {
                    d.evaluate(q, with_tangent, forces);
@@ -407,12 +404,12 @@ namespace NMM
   void
   Contact::Data::list_points_of_bodies()
   {
-    if (!active.has_to_list_points())
+    if (!chosen.has_to_list_points())
       return;
     const unsigned int n = surface->n_bodies() - static_cast<unsigned int>(
                                                    surface->obstacles().size());
     const auto &edges = surface->edges();
-    active.list_points(points.size(), [&](const auto &add) {
+    chosen.list_points(points.size(), [&](const auto &add) {
       for (unsigned int q = 0; q < points.size(); ++q)
       {
         const unsigned int position = point_data[q].slave;

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <base/in_order.h>
-#include <contact/assembly/active_bodies.h>
+#include <contact/assembly/chosen_bodies.h>
 #include <contact/assembly/matrix.h>
 #include <contact/assembly/point_springs.h>
 #include <contact/assembly/point_sums.h>
@@ -120,17 +120,17 @@ namespace NMM
     void
     move_to(const Vector &u);
 
-    /// Set the states of the step: the state at the end is @p end in the active bodies, and the one
+    /// Set the states of the step: the state at the end is @p end in the chosen bodies, and the one
     /// in the middle is the mean of both ends.
     void
     set_step_states(const Vector &end);
 
-    /// Move the faces of active bodies to the displacements at the end and in the middle of the
+    /// Move the faces of chosen bodies to the displacements at the end and in the middle of the
     /// step. The surface is left at the end of the step.
     void
     update_faces();
 
-    /// Move the faces of active bodies to the displacements of ContactTimeStep::expect().
+    /// Move the faces of chosen bodies to the displacements of ContactTimeStep::expect().
     void
     move_as_expected();
 
@@ -199,7 +199,7 @@ namespace NMM
     std::vector<unsigned int>
     slaves_of(const std::vector<unsigned int> &numbers) const;
 
-    /// Find the active points that touch at the beginning or the end of the step: near_points.
+    /// Find the chosen points that touch at the beginning or the end of the step: near_points.
     void
     find_ends();
 
@@ -299,11 +299,11 @@ namespace NMM
     double
     accept_shear(unsigned int q);
 
-    /// Points that belong to an active body, ascending; valid until the next call.
+    /// Points that belong to a chosen body, ascending; valid until the next call.
     const std::vector<unsigned int> &
-    active_points();
+    chosen_points();
 
-    /// List the points of each body if there are inactive bodies.
+    /// List the points of each body if not all bodies are chosen.
     void
     list_points_of_bodies();
 
@@ -358,7 +358,7 @@ namespace NMM
       std::vector<dealii::Tensor<1, 2>> obstacle_changes;
       /// Displacements of ContactTimeStep::expect(); empty if there are none.
       std::vector<dealii::Tensor<1, 2>> nodal_expected;
-      /// Active points that touch at the beginning or the end of the step.
+      /// Chosen points that touch at the beginning or the end of the step.
       std::vector<unsigned int> near_points;
       /// Energy lost between the last accepted state and the beginning of the step [J/m].
       double detection_loss = 0.;
@@ -387,7 +387,7 @@ namespace NMM
     internal::ContactMemory  memory;
     internal::PointMaker     maker;
     internal::PointProjector projector;
-    internal::ActiveBodies   active;
+    internal::ChosenBodies   chosen;
     internal::ContactMatrix  matrix;
     Step                     step;
     std::vector<FrozenPoint> frozen;
@@ -397,7 +397,7 @@ namespace NMM
     std::vector<dealii::Tensor<1, 2>> nodal;
     std::vector<ContactPoint>         points;
     std::vector<PointData>            point_data;
-    /// See active_points(); its memory is kept, because assemblies must not allocate.
+    /// See chosen_points(); its memory is kept, because assemblies must not allocate.
     std::vector<unsigned int> listed_points;
     /// How far the faces of each body may move until the next search, and the largest sum of two
     /// of these ways [m].

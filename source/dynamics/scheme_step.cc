@@ -32,7 +32,7 @@ namespace NMM
 
 
     void
-    SchemeStep::set_rates(const ActiveItems &rows)
+    SchemeStep::set_rates(const ChosenItems &rows)
     {
       const double h   = length;
       const auto   u_0 = std::as_const(begin->u).begin(),
@@ -63,7 +63,7 @@ namespace NMM
     SchemeStep::mix(const Vector      &x,
                     const double       alpha,
                     const Vector      &x_0,
-                    const ActiveItems &rows,
+                    const ChosenItems &rows,
                     Vector            &result) const
     {
       const auto from = x.begin(), other = x_0.begin();

@@ -3,7 +3,7 @@
 
 #include <nmm/dynamics/time_integrator.h>
 
-#include <linear_algebra/active_items.h>
+#include <linear_algebra/chosen_items.h>
 
 namespace NMM
 {
@@ -28,18 +28,18 @@ namespace NMM
 
       /// Compute v and a from u in @p rows.
       void
-      set_rates(const ActiveItems &rows);
+      set_rates(const ChosenItems &rows);
 
       /// Write a_{1 - alpha_m} into @p result in @p rows.
       void
-      mix_accelerations(const ActiveItems &rows, Vector &result) const
+      mix_accelerations(const ChosenItems &rows, Vector &result) const
       {
         mix(a, scheme.alpha_m, begin->a, rows, result);
       }
 
       /// Write v_{1 - alpha_f} into @p result in @p rows.
       void
-      mix_velocities(const ActiveItems &rows, Vector &result) const
+      mix_velocities(const ChosenItems &rows, Vector &result) const
       {
         mix(v, scheme.alpha_f, begin->v, rows, result);
       }
@@ -103,7 +103,7 @@ namespace NMM
       mix(const Vector      &x,
           double             alpha,
           const Vector      &x_0,
-          const ActiveItems &rows,
+          const ChosenItems &rows,
           Vector            &result) const;
 
       const DynamicState *begin;

@@ -37,9 +37,9 @@ namespace NMM
       step.predict(h);
       layout.constraints->distribute(step.u);
       u_end = step.u;
-      held.clear();
+      sleeping_blocks.clear();
       if (sleeping)
-        held = sleeping->mask();
+        sleeping_blocks = sleeping->mask();
       model->begin_step({u_begin, u_end, begin->time, h, imbalance});
     }
 
@@ -71,20 +71,11 @@ namespace NMM
     }
 
 
-    void
-    StepEquations::set_active_blocks(const std::vector<bool> &is_active)
-    {
-      model->blocks().set_active_blocks(is_active, held);
-      if (!is_active.empty() && matrix.rows.empty())
-        matrix.rows.reinit(blocks_of_unknowns());
-      matrix.rows.select(is_active);
-    }
-
-
     Deformation
-    StepEquations::assemble_model(const Vector &u,
-                                  const Tangent tangent,
-                                  const Vector *increment)
+    StepEquations::assemble_model(const Vector         &u,
+                                  const Tangent         tangent,
+                                  const Vector         *increment,
+                                  const BlockSelection &blocks)
     {
       Trial trial = Trial::at(u, step.time_of_forces(), tangent, increment);
       if (step.scheme.is_conserving)
@@ -100,6 +91,7 @@ namespace NMM
         trial.end       = &u_middle;
         trial.increment = nullptr;
       }
+      trial.selection = &blocks;
       return model->assemble(trial);
     }
 
@@ -115,24 +107,40 @@ namespace NMM
                                            ? properties.is_symmetric_between
                                            : properties.is_symmetric;
       result.pattern_version           = sum.pattern_version;
-      result.coupled_blocks            = sum.coupled_blocks;
     }
 
 
     Deformation
-    StepEquations::assemble(const Vector &u,
-                            const Tangent tangent,
-                            const Vector *increment)
+    StepEquations::assemble(const Vector         &u,
+                            const Tangent         tangent,
+                            const Vector         *increment,
+                            const BlockSelection &blocks)
+    {
+      if (!blocks.empty() && matrix.rows.empty())
+        matrix.rows.reinit(blocks_of_unknowns());
+      matrix.rows.select(blocks);
+      const Deformation state = assemble_rows(u, tangent, increment, blocks);
+      matrix.rows.select({});
+      return state;
+    }
+
+
+    Deformation
+    StepEquations::assemble_rows(const Vector         &u,
+                                 const Tangent         tangent,
+                                 const Vector         *increment,
+                                 const BlockSelection &blocks)
     {
       const unsigned int n    = step.u.locally_owned_size();
-      const ActiveItems &rows = matrix.rows;
+      const ChosenItems &rows = matrix.rows;
       if (rows.all())
         step.u = u;
       else
         for (const unsigned int i : rows.chosen())
           step.u.begin()[i] = u.begin()[i];
       step.set_rates(rows);
-      if (assemble_model(u, tangent, increment) != Deformation::admissible)
+      if (assemble_model(u, tangent, increment, blocks) !=
+          Deformation::admissible)
         return Deformation::inverted;
       const AssembledForces &sum = model->forces();
       if (tangent != Tangent::none)

@@ -33,29 +33,15 @@ namespace NMM
       /// @name NonlinearSystem
       /// @{
       Deformation
-      assemble(const Vector &u,
-               Tangent       tangent,
-               const Vector *increment) override;
+      assemble(const Vector         &u,
+               Tangent               tangent,
+               const Vector         *increment,
+               const BlockSelection &blocks = {}) override;
 
       const std::vector<unsigned int> &
       blocks_of_unknowns() const override
       {
         return model->layout().blocks_of_unknowns;
-      }
-
-      void
-      set_active_blocks(const std::vector<bool> &is_active) override;
-
-      std::vector<unsigned int>
-      take_touched_blocks() override
-      {
-        return model->blocks().take_touched_blocks();
-      }
-
-      void
-      forget_tangent() override
-      {
-        model->blocks().forget_tangent();
       }
       /// @}
 
@@ -68,12 +54,22 @@ namespace NMM
 
     private:
       Deformation
-      assemble_model(const Vector &u, Tangent tangent, const Vector *increment);
+      assemble_model(const Vector         &u,
+                     Tangent               tangent,
+                     const Vector         *increment,
+                     const BlockSelection &blocks);
+
+      /// Compute forces and tangent in the chosen rows.
+      Deformation
+      assemble_rows(const Vector         &u,
+                    Tangent               tangent,
+                    const Vector         *increment,
+                    const BlockSelection &blocks);
 
       void
       assemble_matrix(const AssembledForces &sum);
 
-      /// Subtract the closing forces, times @p share, from the forces in active rows.
+      /// Subtract the closing forces, times @p share, from the forces in chosen rows.
       void
       subtract_closing(double share);
 

@@ -4,14 +4,14 @@
 #include <nmm/mechanics/mechanical_model.h>
 
 #include <dynamics/scheme_step.h>
-#include <linear_algebra/active_items.h>
+#include <linear_algebra/chosen_items.h>
 
 namespace NMM
 {
   namespace internal
   {
     /// The sum of the mass M, the damping C and the stiffness K that is the derivative of the
-    /// equations of a step, and products in active rows.
+    /// equations of a step, and products in chosen rows.
     class StepMatrix
     {
     public:
@@ -20,11 +20,11 @@ namespace NMM
 
       explicit StepMatrix(const ModelLayout &layout);
 
-      /// Add A x to @p result, in active rows.
+      /// Add A x to @p result, in chosen rows.
       void
       add_product(const Matrix &A, const Vector &x, Vector &result);
 
-      /// Sum up the matrix of a step with the tangent of @p forces, in active rows.
+      /// Sum up the matrix of a step with the tangent of @p forces, in chosen rows.
       void
       assemble(const SchemeStep &step, const AssembledForces &forces);
 
@@ -35,7 +35,7 @@ namespace NMM
       }
 
       /// Rows that products and sums are computed in.
-      ActiveItems rows;
+      ChosenItems rows;
 
     private:
       const ModelLayout *layout;

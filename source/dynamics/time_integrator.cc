@@ -199,7 +199,7 @@ namespace NMM
   TimeIntegrator::Data::predict(const double h)
   {
     equations.begin_step(h, account.account().imbalance);
-    std::vector<bool> is_flying = model->blocks().pressed_blocks();
+    std::vector<bool> is_flying = model->pressed_blocks();
     if (is_flying.empty())
       return;
     is_flying.flip();
@@ -268,7 +268,7 @@ namespace NMM
       report.reason             = result.reason;
       report.n_iterations += result.iterations.size();
       for (const NewtonReport::Iteration &iteration : result.iterations)
-        report.n_full_iterations += iteration.active_share;
+        report.n_full_iterations += iteration.solved_share;
       report.factorization_time += result.factorization_time;
       report.substitution_time += result.substitution_time;
     } while (report.converged && equations.sleeping && wakes());

@@ -47,24 +47,15 @@ namespace NMM
 
 
   void
-  BodyMatrix::clear()
+  BodyMatrix::begin_rows(const std::vector<bool> &bodies)
   {
     std::fill(first_of_rows.begin(), first_of_rows.end(), none);
     couplings.clear();
     values.clear();
-  }
-
-
-  void
-  BodyMatrix::begin_rows(const std::vector<bool> &bodies)
-  {
-    active = bodies;
+    stored = bodies;
     for (unsigned int b = 0; b < n_bodies(); ++b)
-      if (is_active(b))
-      {
-        first_of_rows[b] = none;
+      if (is_stored(b))
         append(b, b);
-      }
   }
 
 
@@ -108,7 +99,7 @@ namespace NMM
     {
       i_end                  = end_of(i);
       const unsigned int row = body_of(unknown_of(covers[i], 0));
-      if (!is_active(row))
+      if (!is_stored(row))
         continue;
       const unsigned int height = size(row);
       for (unsigned int j = 0, j_end; j < n; j = j_end)
@@ -139,14 +130,14 @@ namespace NMM
   BodyMatrix::add(const double factor, const Matrix &matrix)
   {
     const MatrixRows from(matrix);
-    const auto       next_active = [this](unsigned int b) {
-      while (b < n_bodies() && !is_active(b))
+    const auto       next_stored = [this](unsigned int b) {
+      while (b < n_bodies() && !is_stored(b))
         ++b;
       return b;
     };
-    for (unsigned int b = next_active(0), next; b < n_bodies(); b = next)
+    for (unsigned int b = next_stored(0), next; b < n_bodies(); b = next)
     {
-      next = next_active(b + 1);
+      next = next_stored(b + 1);
       if (next < n_bodies())
       {
         const int first = from.begins[begin(next)];
@@ -180,18 +171,17 @@ namespace NMM
                    const std::vector<bool> &bodies,
                    const Couplings         &neighbors)
   {
-    clear();
     begin_rows(bodies);
     for (unsigned int b = 0; b < n_bodies(); ++b)
       for (const unsigned int other : neighbors[b])
         for (const auto &[row, column] :
              {std::make_pair(b, other), std::make_pair(other, b)})
-          if (is_active(row))
+          if (is_stored(row))
             (void)coupling(row, column);
 
     const MatrixRows from(matrix);
     for (unsigned int b = 0; b < n_bodies(); ++b)
-      for (unsigned int i = is_active(b) ? first_of_rows[b] : none; i != none;
+      for (unsigned int i = is_stored(b) ? first_of_rows[b] : none; i != none;
            i              = couplings[i].next)
       {
         const int first = begin(couplings[i].column),

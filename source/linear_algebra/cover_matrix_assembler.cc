@@ -112,9 +112,9 @@ namespace NMM
 
 
     void
-    CoverMatrixAssembler::restrict_to(const ActiveItems &covers)
+    CoverMatrixAssembler::restrict_to(const ChosenItems &covers)
     {
-      active_covers = &covers;
+      chosen_covers = &covers;
     }
 
 
@@ -194,7 +194,7 @@ namespace NMM
     void
     CoverMatrixAssembler::reset(const bool with_matrix)
     {
-      if (active_covers == nullptr || active_covers->all())
+      if (chosen_covers == nullptr || chosen_covers->all())
       {
         *rhs = 0.;
         if (with_matrix)
@@ -328,7 +328,7 @@ namespace NMM
           add_row_of_other_rank(i, of_covers, matrix_values, values);
           continue;
         }
-        if (!is_active(row))
+        if (!is_chosen(row))
           continue;
         rhs_values[unknown_of(row, 0)] += values[unknown_of(i, 0)];
         rhs_values[unknown_of(row, 1)] += values[unknown_of(i, 1)];

@@ -9,7 +9,7 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
-#include <linear_algebra/active_items.h>
+#include <linear_algebra/chosen_items.h>
 #include <linear_algebra/matrix_rows.h>
 #include <utility>
 #include <vector>
@@ -27,7 +27,7 @@ namespace NMM
      * reset(), add() and compress().
      *
      * In contrast to AffineConstraints::distribute_local_to_global(), values are added directly to
-     * the arrays of the Trilinos matrix, for all entries of a row in one pass, and rows of inactive
+     * the arrays of the Trilinos matrix, for all entries of a row in one pass, and rows of other
      * blocks can be left out. Contributions to rows of other ranks are added by
      * TrilinosWrappers::SparseMatrix::add().
      */
@@ -53,10 +53,10 @@ namespace NMM
       void
       leave_empty_rows();
 
-      /// Let reset(), add() and compress() change the rows of active covers only. On one rank only;
+      /// Let reset(), add() and compress() change the rows of chosen covers only. On one rank only;
       /// @p covers must outlive this object.
       void
-      restrict_to(const ActiveItems &covers);
+      restrict_to(const ChosenItems &covers);
 
       /// Add the couplings of all pairs of @p covers to the sparsity pattern.
       void
@@ -115,27 +115,27 @@ namespace NMM
       fill_empty_diagonals();
 
       bool
-      is_active(const unsigned int row) const
+      is_chosen(const unsigned int row) const
       {
-        return active_covers == nullptr || active_covers->contains(row);
+        return chosen_covers == nullptr || chosen_covers->contains(row);
       }
 
-      /// Call action(row) for the rows of entries of active covers.
+      /// Call action(row) for the rows of entries of chosen covers.
       template <typename Action>
       void
       for_each_row(const Action &action) const
       {
-        if (active_covers == nullptr)
+        if (chosen_covers == nullptr)
           for (unsigned int row = 0; row < n_rows; ++row)
             action(row);
         else
-          active_covers->for_each(n_rows, action);
+          chosen_covers->for_each(n_rows, action);
       }
 
       const CoverSystem                       *covers;
       const dealii::AffineConstraints<double> *constraints;
       bool               has_inhomogeneities = true, leaves_empty_rows = false;
-      const ActiveItems *active_covers = nullptr;
+      const ChosenItems *chosen_covers = nullptr;
       /// For each cover, whether one of its unknowns is constrained.
       std::vector<bool> is_constrained;
       /// Couplings of covers (global numbers); released by build().

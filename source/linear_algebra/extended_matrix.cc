@@ -58,7 +58,7 @@ namespace NMM
 
 
     void
-    ExtendedMatrix::read(const Matrix &original, const ActiveItems &rows)
+    ExtendedMatrix::read(const Matrix &original, const ChosenItems &rows)
     {
       const MatrixRows to(extended);
       rows.for_each(extended.local_size(), [&](const unsigned int row) {
@@ -74,7 +74,7 @@ namespace NMM
     ExtendedMatrix::add(const Index       *unknowns,
                         const unsigned int n,
                         const double      *values,
-                        const ActiveItems &rows)
+                        const ChosenItems &rows)
     {
       const MatrixRows to(extended);
       const auto      &matrix = extended.trilinos_matrix();

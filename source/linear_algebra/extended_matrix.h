@@ -4,7 +4,7 @@
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
-#include <linear_algebra/active_items.h>
+#include <linear_algebra/chosen_items.h>
 #include <vector>
 
 namespace NMM
@@ -35,14 +35,14 @@ namespace NMM
 
       /// Replace the values in @p rows by those of the original.
       void
-      read(const Matrix &original, const ActiveItems &rows);
+      read(const Matrix &original, const ChosenItems &rows);
 
       /// Add the n x n @p values, stored row by row, of the n @p unknowns, in owned unknowns of @p rows.
       void
       add(const Index       *unknowns,
           unsigned int       n,
           const double      *values,
-          const ActiveItems &rows);
+          const ChosenItems &rows);
 
       const Matrix &
       matrix() const

@@ -1,7 +1,7 @@
 #ifndef nmm_source_linear_algebra_matrix_sum_h
 #define nmm_source_linear_algebra_matrix_sum_h
 
-#include <linear_algebra/active_items.h>
+#include <linear_algebra/chosen_items.h>
 #include <linear_algebra/matrix_rows.h>
 
 namespace NMM
@@ -14,7 +14,7 @@ namespace NMM
     add_rows(const double                                  factor,
              const dealii::TrilinosWrappers::SparseMatrix &from,
              dealii::TrilinosWrappers::SparseMatrix       &to,
-             const ActiveItems                            &rows)
+             const ChosenItems                            &rows)
     {
       if (rows.all())
       {
@@ -43,7 +43,7 @@ namespace NMM
     inline void
     set_rows(const dealii::TrilinosWrappers::SparseMatrix &from,
              dealii::TrilinosWrappers::SparseMatrix       &to,
-             const ActiveItems                            &rows)
+             const ChosenItems                            &rows)
     {
       const MatrixRows source(from), copy(to);
       for (const unsigned int row : rows.chosen())

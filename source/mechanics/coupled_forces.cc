@@ -46,6 +46,9 @@ namespace NMM
       forces.clear();
       tangents.clear();
       sum.sink = this;
+      if (!trial.blocks().empty() && rows.empty())
+        rows.reinit(layout->blocks_of_unknowns);
+      rows.select(trial.blocks());
     }
 
 
@@ -98,18 +101,10 @@ namespace NMM
     CoupledForces::finish(AssembledForces &sum)
     {
       add_residual(sum);
-      find_blocks(with_tangent);
-      if (!with_tangent)
-        return;
-      if (sum.body_tangent != nullptr)
+      if (with_tangent && sum.body_tangent != nullptr)
         add_body_tangent(sum);
-      else
+      else if (with_tangent)
         add_tangent(sum);
-      if (sum.coupled_blocks == nullptr)
-        return;
-      all_pairs = *sum.coupled_blocks;
-      all_pairs.insert(all_pairs.end(), pairs.begin(), pairs.end());
-      sum.coupled_blocks = &all_pairs;
     }
 
 
@@ -197,58 +192,6 @@ namespace NMM
       original_version    = sum.pattern_version;
       sum.pattern_version = version;
       return is_new;
-    }
-
-
-    /// Find the pairs of blocks that the local systems couple, and the blocks that active ones
-    /// touch through them.
-    void
-    CoupledForces::find_blocks(const bool with_pairs)
-    {
-      pairs.clear();
-      const std::vector<unsigned int> &block_of = layout->blocks_of_unknowns;
-      if (block_of.empty())
-        return;
-      const auto is_active = [this](const unsigned int block) {
-        return active.empty() || active[block];
-      };
-      std::vector<unsigned int> blocks;
-      for (unsigned int l = 0; l + 1 < begins.size(); ++l)
-      {
-        blocks.clear();
-        for (unsigned int i = begins[l]; i < begins[l + 1]; ++i)
-          blocks.push_back(block_of[unknowns[i]]);
-        std::sort(blocks.begin(), blocks.end());
-        blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-        if (std::none_of(blocks.begin(), blocks.end(), is_active))
-          continue;
-        for (const unsigned int block : blocks)
-          if (!is_active(block) && (held.empty() || !held[block]))
-            touched.push_back(block);
-        for (unsigned int i = 0; with_pairs && i < blocks.size(); ++i)
-          for (unsigned int j = 0; j < i; ++j)
-            if (is_active(blocks[i]) || is_active(blocks[j]))
-              pairs.emplace_back(blocks[j], blocks[i]);
-      }
-    }
-
-
-    void
-    CoupledForces::set_active_blocks(const std::vector<bool> &is_active,
-                                     const std::vector<bool> &is_held)
-    {
-      active = is_active;
-      held   = is_held;
-      if (!is_active.empty() && rows.empty())
-        rows.reinit(layout->blocks_of_unknowns);
-      rows.select(is_active);
-    }
-
-
-    std::vector<unsigned int>
-    CoupledForces::take_touched_blocks()
-    {
-      return std::exchange(touched, {});
     }
   } // namespace internal
 } // namespace NMM

@@ -3,7 +3,7 @@
 
 #include <nmm/mechanics/force_term.h>
 
-#include <linear_algebra/active_items.h>
+#include <linear_algebra/chosen_items.h>
 #include <linear_algebra/extended_matrix.h>
 #include <vector>
 
@@ -20,7 +20,7 @@ namespace NMM
      * Order of calls in an assembly: begin(), add(), finish(). Lifetime: the layout must outlive this
      * object.
      */
-    class CoupledForces : public ForceSink, public BlockTerm
+    class CoupledForces : public ForceSink
     {
     public:
       using Unknowns = ForceTerm::Unknowns;
@@ -48,13 +48,6 @@ namespace NMM
       void
       finish(AssembledForces &sum);
 
-      void
-      set_active_blocks(const std::vector<bool> &is_active,
-                        const std::vector<bool> &is_held) override;
-
-      std::vector<unsigned int>
-      take_touched_blocks() override;
-
     private:
       void
       add_unknowns(const Unknowns &of_forces);
@@ -71,9 +64,6 @@ namespace NMM
       bool
       set_version(const void *of_terms, AssembledForces &sum);
 
-      void
-      find_blocks(bool with_tangent);
-
       /// Call action(first unknown, number of unknowns, first value) for each local matrix, stored
       /// row by row.
       template <typename Action>
@@ -81,10 +71,8 @@ namespace NMM
       for_each_matrix(const Action &action) const;
 
       const ModelLayout *layout;
-      /// Rows of active blocks.
-      ActiveItems rows;
-      /// See BlockTerm::set_active_blocks().
-      std::vector<bool> active, held;
+      /// Rows of Trial::blocks().
+      ChosenItems rows;
 
       /// @{
       /// Local systems of this assembly: where the unknowns of each begin, and with the end of the
@@ -101,11 +89,6 @@ namespace NMM
       /// the sum got.
       const void  *original         = nullptr;
       unsigned int original_version = 0, version = 0;
-
-      /// Pairs of blocks that this assembly couples, and those of all terms.
-      std::vector<BlockPair> pairs, all_pairs;
-      /// See BlockTerm::take_touched_blocks().
-      std::vector<unsigned int> touched;
     };
   } // namespace internal
 } // namespace NMM

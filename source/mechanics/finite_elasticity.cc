@@ -57,7 +57,7 @@ namespace NMM
     d.read(begin, d.nodal_begin);
     d.read(end, d.nodal_end);
     d.nodal.resize(d.nodal_begin.size());
-    d.active_covers.for_each(d.covers->n_covers(), [&](const unsigned int k) {
+    d.chosen_covers.for_each(d.covers->n_covers(), [&](const unsigned int k) {
       d.nodal[k] = 0.5 * (d.nodal_begin[k] + d.nodal_end[k]);
     });
     Data::Task task{/* load_factor = */ 1., tangent};
@@ -154,9 +154,9 @@ namespace NMM
 
 
   void
-  FiniteElasticity::set_active_blocks(const std::vector<bool> &is_active)
+  FiniteElasticity::restrict_to(const BlockSelection &blocks)
   {
-    data->set_active_blocks(is_active);
+    data->restrict_to(blocks);
   }
 
 

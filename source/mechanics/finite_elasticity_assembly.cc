@@ -78,7 +78,7 @@ namespace NMM
                                             material.initial_stress);
     }
     penalty_growth.assign(edges->weak_points.size(), 1.);
-    assembler.restrict_to(active_covers);
+    assembler.restrict_to(chosen_covers);
     assembler.build(matrix, residual);
     least_force_scale = forces_at_small_strain();
   }
@@ -106,10 +106,10 @@ namespace NMM
 
 
   void
-  FiniteElasticity::Data::set_active_blocks(const std::vector<bool> &blocks)
+  FiniteElasticity::Data::restrict_to(const BlockSelection &blocks)
   {
-    active_blocks = blocks;
-    if (!blocks.empty() && active_elements.empty())
+    chosen_blocks = blocks;
+    if (!blocks.empty() && chosen_elements.empty())
     {
       const ManifoldMesh       &mesh = covers->manifold_mesh();
       std::vector<unsigned int> element_to_block(mesh.n_elements()),
@@ -120,19 +120,19 @@ namespace NMM
         for (const unsigned int k : covers->covers(e))
           cover_to_block[k] = mesh.block(e);
       }
-      active_elements.reinit(element_to_block);
-      active_covers.reinit(cover_to_block);
+      chosen_elements.reinit(element_to_block);
+      chosen_covers.reinit(cover_to_block);
       dead_loads.for_each_load([&](const DeadLoads::Load &load) {
-        active_loads.emplace_back();
-        active_loads.back().reinit(load.covers.size(), [&](const auto &add) {
+        chosen_loads.emplace_back();
+        chosen_loads.back().reinit(load.covers.size(), [&](const auto &add) {
           for (unsigned int i = 0; i < load.covers.size(); ++i)
             add(i, cover_to_block[load.covers[i]]);
         });
       });
     }
-    active_elements.select(blocks);
-    active_covers.select(blocks);
-    for (internal::ActiveItems &load : active_loads)
+    chosen_elements.select(blocks);
+    chosen_covers.select(blocks);
+    for (internal::ChosenItems &load : chosen_loads)
       load.select(blocks);
   }
 
@@ -141,11 +141,11 @@ namespace NMM
   FiniteElasticity::Data::read(const Vector                      &u,
                                std::vector<dealii::Tensor<1, 2>> &to) const
   {
-    // ties also need the displacements of blocks next to active ones
+    // ties also need the displacements of blocks next to chosen ones
     if (!edges->ties.empty())
       read_nodal_values(*covers, u, to);
     else
-      read_nodal_values(*covers, u, active_covers, to);
+      read_nodal_values(*covers, u, chosen_covers, to);
   }
 
 
@@ -312,9 +312,9 @@ namespace NMM
     // lets threads skip the remaining elements once one is inverted
     std::atomic<bool> is_inverted(false);
     n_assembled           = 0;
-    const bool is_all     = active_elements.all();
+    const bool is_all     = chosen_elements.all();
     const auto element_of = [&](const unsigned int i) {
-      return is_all ? i : active_elements.chosen()[i];
+      return is_all ? i : chosen_elements.chosen()[i];
     };
     const auto go_to = [](auto &site, const auto &end, const unsigned int e) {
       while (site != end && site->element < e)
@@ -323,7 +323,7 @@ namespace NMM
     };
     for_each_in_order<Volume>(
       is_all ? first : 0,
-      is_all ? last : active_elements.chosen().size(),
+      is_all ? last : chosen_elements.chosen().size(),
       [&](const unsigned int i, Volume &volume) {
         const unsigned int e = element_of(i);
         if (is_absent(e) || is_inverted)
@@ -370,7 +370,7 @@ namespace NMM
     for (const EdgeTables::Site &tie : edges->ties)
     {
       if (is_absent(tie.element) || is_absent(tie.neighbor) ||
-          !(is_active(tie.element) || is_active(tie.neighbor)))
+          !(is_chosen(tie.element) || is_chosen(tie.neighbor)))
         continue;
       gather(tie, nodal, u);
       local.reset(2 * n_per_cell, task.with_tangent());
@@ -438,11 +438,11 @@ namespace NMM
         square += f.norm_square();
         work += f * nodal[k];
       };
-      if (active_elements.all())
+      if (chosen_elements.all())
         for (unsigned int i = 0; i < load.covers.size(); ++i)
           add_entry(i);
       else
-        for (const unsigned int i : active_loads[n].chosen())
+        for (const unsigned int i : chosen_loads[n].chosen())
           add_entry(i);
       ++n;
     };

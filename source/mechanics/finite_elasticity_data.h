@@ -182,18 +182,18 @@ namespace NMM
              absent_blocks[covers->manifold_mesh().block(element)];
     }
 
-    /// Whether the element belongs to an active block.
+    /// Whether the element belongs to a chosen block.
     bool
-    is_active(const unsigned int element) const
+    is_chosen(const unsigned int element) const
     {
-      return active_blocks.empty() ||
-             active_blocks[covers->manifold_mesh().block(element)];
+      return chosen_blocks.empty() ||
+             chosen_blocks[covers->manifold_mesh().block(element)];
     }
 
     void
-    set_active_blocks(const std::vector<bool> &blocks);
+    restrict_to(const BlockSelection &blocks);
 
-    /// Read the displacements that are needed for active blocks from a vector.
+    /// Read the displacements that are needed for chosen blocks from a vector.
     void
     read(const Vector &u, std::vector<dealii::Tensor<1, 2>> &to) const;
 
@@ -243,12 +243,12 @@ namespace NMM
     std::vector<internal::ConservingLaw> region_to_conserving_law;
     LoadAmplitudes                       amplitudes;
     /// For each block whether it is absent, for each cover whether it belongs to an absent block,
-    /// and for each block whether it is active. Empty: no block is absent, all are active.
-    std::vector<bool> absent_blocks, absent_covers, active_blocks;
+    /// and for each block whether it is chosen. Empty: no block is absent, all are chosen.
+    std::vector<bool> absent_blocks, absent_covers, chosen_blocks;
     unsigned int      n_assembled = 0;
-    /// Elements, covers, and entries of each dead load that belong to active blocks.
-    internal::ActiveItems              active_elements, active_covers;
-    std::vector<internal::ActiveItems> active_loads;
+    /// Elements, covers, and entries of each dead load that belong to chosen blocks.
+    internal::ChosenItems              chosen_elements, chosen_covers;
+    std::vector<internal::ChosenItems> chosen_loads;
 
     bool                                               has_ghost_penalty;
     std::vector<std::pair<unsigned int, unsigned int>> ghost_pairs;

@@ -68,7 +68,10 @@ namespace NMM
   Deformation
   FiniteSolid::assemble(const Trial &trial, AssembledForces &forces)
   {
-    if (assemble_elasticity(trial) != Deformation::admissible)
+    elastic->restrict_to(trial.blocks());
+    const Deformation state = assemble_elasticity(trial);
+    elastic->restrict_to({});
+    if (state != Deformation::admissible)
       return Deformation::inverted;
     sum = elastic->residual();
     add_base_force(trial.is_conserving

@@ -8,67 +8,18 @@
 
 namespace NMM
 {
-  void
-  BlockTerms::set_active_blocks(const std::vector<bool> &is_active,
-                                const std::vector<bool> &is_held)
-  {
-    for (BlockTerm *term : terms)
-      term->set_active_blocks(is_active, is_held);
-  }
-
-
-  std::vector<unsigned int>
-  BlockTerms::take_touched_blocks()
-  {
-    std::vector<unsigned int> touched;
-    for (BlockTerm *term : terms)
-      for (const unsigned int block : term->take_touched_blocks())
-        touched.push_back(block);
-    return touched;
-  }
-
-
-  std::vector<bool>
-  BlockTerms::pressed_blocks() const
-  {
-    std::vector<bool> pressed;
-    for (const BlockTerm *term : terms)
-    {
-      const std::vector<bool> of_term = term->pressed_blocks();
-      pressed.resize(std::max(pressed.size(), of_term.size()), false);
-      for (unsigned int b = 0; b < of_term.size(); ++b)
-        pressed[b] = pressed[b] || of_term[b];
-    }
-    return pressed;
-  }
-
-
-  void
-  BlockTerms::forget_tangent()
-  {
-    for (BlockTerm *term : terms)
-      term->forget_tangent();
-  }
-
-
   MechanicalModel::MechanicalModel(const ModelLayout       &layout,
                                    std::vector<ForceTerm *> terms_in)
     : unknowns(&layout)
     , terms(std::move(terms_in))
   {
-    for (ForceTerm *term : terms)
-      if (auto *const of_blocks = dynamic_cast<BlockTerm *>(term))
-        block_terms.terms.push_back(of_blocks);
     std::vector<ForceTerm::Unknowns> couplings;
     for (const ForceTerm *term : terms)
       for (ForceTerm::Unknowns &unknowns : term->couplings())
         couplings.push_back(std::move(unknowns));
     if (!couplings.empty())
-    {
       coupled =
         std::make_unique<internal::CoupledForces>(layout, std::move(couplings));
-      block_terms.terms.push_back(coupled.get());
-    }
     for (ForceTerm *term : terms)
       term->set_presence(presence);
   }
@@ -127,6 +78,21 @@ namespace NMM
       if (fault.reason.empty())
         fault = term->find_fault(end);
     return fault;
+  }
+
+
+  std::vector<bool>
+  MechanicalModel::pressed_blocks() const
+  {
+    std::vector<bool> pressed;
+    for (const ForceTerm *term : terms)
+    {
+      const std::vector<bool> of_term = term->pressed_blocks();
+      pressed.resize(std::max(pressed.size(), of_term.size()), false);
+      for (unsigned int b = 0; b < of_term.size(); ++b)
+        pressed[b] = pressed[b] || of_term[b];
+    }
+    return pressed;
   }
 
 

@@ -5,7 +5,7 @@
 
 #include <deal.II/lac/trilinos_vector.h>
 
-#include <linear_algebra/active_items.h>
+#include <linear_algebra/chosen_items.h>
 #include <vector>
 
 namespace NMM
@@ -34,21 +34,21 @@ namespace NMM
     }
 
 
-    /// The same for @p active covers alone, where one rank owns all covers.
+    /// The same for @p chosen covers alone, where one rank owns all covers.
     inline void
     read_nodal_values(const CoverSystem                           &covers,
                       const dealii::TrilinosWrappers::MPI::Vector &vector,
-                      const ActiveItems                           &active,
+                      const ChosenItems                           &chosen,
                       std::vector<dealii::Tensor<1, 2>>           &nodal)
     {
-      if (active.all() || nodal.size() != covers.n_covers() ||
+      if (chosen.all() || nodal.size() != covers.n_covers() ||
           covers.locally_owned_covers().n_elements() != covers.n_covers())
       {
         read_nodal_values(covers, vector, nodal);
         return;
       }
       const auto values = vector.begin();
-      for (const unsigned int k : active.chosen())
+      for (const unsigned int k : chosen.chosen())
         for (unsigned int c = 0; c < 2; ++c)
           nodal[k][c] = values[unknown_of(k, c)];
     }

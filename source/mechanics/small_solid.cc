@@ -108,7 +108,7 @@ namespace NMM
       const LoadAmplitudes amplitudes = amplitudes_at(t_1);
       owned                           = *trial.end;
       assemble_owned(t_1, amplitudes);
-      if (trial.with_energies)
+      if (trial.with_energies && trial.blocks().empty())
         add_energies(*trial.end, amplitudes, sum);
     }
     sum.residual            = &forces;
@@ -146,8 +146,6 @@ namespace NMM
                            const LoadAmplitudes &amplitudes,
                            AssembledForces      &sum)
   {
-    if (!all_blocks_are_active)
-      return;
     set_amplitudes(
       internal::without_loads(elastic->elasticity_problem(), amplitudes));
     elastic->assemble_linearized(u, 1.);

@@ -81,16 +81,6 @@ namespace NMM
 
 
   void
-  SolidTerm::set_active_blocks(const std::vector<bool> &is_active,
-                               const std::vector<bool> &)
-  {
-    elastic->set_active_blocks(is_active);
-    all_blocks_are_active =
-      std::find(is_active.begin(), is_active.end(), false) == is_active.end();
-  }
-
-
-  void
   SolidTerm::set_mass_of_translation()
   {
     if (!loading.base_acceleration)

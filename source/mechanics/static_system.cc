@@ -64,7 +64,8 @@ namespace NMM
   Deformation
   StaticSystem::assemble(const Vector &u,
                          const Tangent tangent,
-                         const Vector *increment)
+                         const Vector *increment,
+                         const BlockSelection & /*blocks*/)
   {
     Trial trial             = Trial::at(u, factor, tangent, increment);
     trial.with_energies     = false;

@@ -10,16 +10,16 @@ namespace NMM
   {
     void
     NewtonGroups::reinit(const std::vector<unsigned int> &blocks,
-                         const std::vector<bool>         &is_held,
+                         const std::vector<bool>         &sleeps,
                          const bool                       are_separate,
                          const Vector                    &like)
     {
       if (blocks != block_of)
-        active_unknowns.clear();
+        chosen_unknowns.clear();
       block_of = blocks;
       n_all    = like.size();
-      if (active_unknowns.empty() && !blocks.empty())
-        active_unknowns.reinit(blocks);
+      if (chosen_unknowns.empty() && !blocks.empty())
+        chosen_unknowns.reinit(blocks);
       const unsigned int n =
         blocks.empty() ? 1
                        : *std::max_element(blocks.begin(), blocks.end()) + 1;
@@ -31,10 +31,10 @@ namespace NMM
         groups[0].n_unknowns = n_all;
       for (const unsigned int block : blocks)
         ++groups[block].n_unknowns;
-      for (unsigned int b = 0; b < std::min<std::size_t>(n, is_held.size());
-           ++b)
-        if (is_held[b])
-          states[b] = State::held;
+      late_pairs.clear();
+      for (unsigned int b = 0; b < std::min<std::size_t>(n, sleeps.size()); ++b)
+        if (sleeps[b])
+          states[b] = State::asleep;
       if (!are_separate)
       {
         unsigned int first = invalid_index;
@@ -80,73 +80,50 @@ namespace NMM
             all_active_roots.push_back(b);
         }
       if (!block_of.empty())
-        active_unknowns.select(active_blocks.size() == groups.size()
+        chosen_unknowns.select(active_blocks.size() == groups.size()
                                  ? std::vector<bool>()
                                  : is_active);
     }
 
 
     void
-    NewtonGroups::clear_neighbours(const std::vector<bool> &blocks)
+    NewtonGroups::unite(const dealii::TrilinosWrappers::SparseMatrix &matrix)
     {
-      for (unsigned int b = 0; b < neighbours.size(); ++b)
-        if (blocks.empty() || blocks[b])
-          neighbours[b].clear();
-    }
-
-
-    void
-    NewtonGroups::unite(const std::vector<bool>                      &blocks,
-                        const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                        const std::vector<BlockPair>                 *pairs)
-    {
-      clear_neighbours(blocks);
       if (block_of.empty())
         return;
-      if (pairs != nullptr)
-        for (const auto &[a, b] : *pairs)
+      for (const unsigned int b : active_blocks)
+        neighbours[b].clear();
+      const MatrixRows entries(matrix);
+      chosen_unknowns.for_each(n_all, [&](const unsigned int row) {
+        const unsigned int b = block_of[row];
+        // columns of the same block follow each other
+        unsigned int last = b;
+        for (int i = entries.begins[row]; i < entries.begins[row + 1]; ++i)
         {
-          if (blocks.empty() || blocks[a])
-            add_neighbour(a, b);
-          if (blocks.empty() || blocks[b])
-            add_neighbour(b, a);
+          const unsigned int other = block_of[entries.columns[i]];
+          if (other == last || entries.values[i] == 0.)
+            continue;
+          last = other;
+          if (other != b)
+            add_neighbour(b, other);
         }
-      else
-      {
-        const MatrixRows entries(matrix);
-        active_unknowns.for_each(n_all, [&](const unsigned int row) {
-          const unsigned int b = block_of[row];
-          if (!is_in(blocks, row))
-            return;
-          // columns of the same block follow each other
-          unsigned int last = b;
-          for (int i = entries.begins[row]; i < entries.begins[row + 1]; ++i)
-          {
-            const unsigned int other = block_of[entries.columns[i]];
-            if (other == last || entries.values[i] == 0.)
-              continue;
-            last = other;
-            if (other != b)
-              add_neighbour(b, other);
-          }
-        });
-      }
+      });
       unite_neighbours();
     }
 
 
     void
-    NewtonGroups::unite(const std::vector<bool> &blocks,
-                        const BodyMatrix        &matrix)
+    NewtonGroups::unite(const BodyMatrix &matrix)
     {
-      clear_neighbours(blocks);
-      for (unsigned int b = 0; b < neighbours.size(); ++b)
-        if (blocks.empty() || blocks[b])
-          matrix.for_each_in_row(b,
-                                 [&](const unsigned int other, const double *) {
-                                   if (other != b)
-                                     neighbours[b].push_back(other);
-                                 });
+      for (const unsigned int b : active_blocks)
+      {
+        neighbours[b].clear();
+        matrix.for_each_in_row(b,
+                               [&](const unsigned int other, const double *) {
+                                 if (other != b)
+                                   neighbours[b].push_back(other);
+                               });
+      }
       unite_neighbours();
     }
 
@@ -155,15 +132,20 @@ namespace NMM
     NewtonGroups::unite_neighbours()
     {
       bool has_joined = false;
+      late_pairs.clear();
       for (const unsigned int b : active_blocks)
         for (const unsigned int other : neighbours[b])
-          // blocks that are not active are reported by NonlinearSystem::take_touched_blocks()
-          if (states[joined.find(other)] == State::active &&
-              joined.find(b) != joined.find(other))
+        {
+          const State state = states[joined.find(other)];
+          if (state == State::done)
+            late_pairs.emplace_back(b, other);
+          else if (state == State::active &&
+                   joined.find(b) != joined.find(other))
           {
             join(b, other);
             has_joined = true;
           }
+        }
       if (has_joined)
         update_roots();
     }
@@ -181,7 +163,7 @@ namespace NMM
 
 
     double
-    NewtonGroups::active_share() const
+    NewtonGroups::solved_share() const
     {
       double n = 0.;
       for (const unsigned int root : all_active_roots)
@@ -190,11 +172,9 @@ namespace NMM
     }
 
 
-    std::vector<bool>
+    void
     NewtonGroups::reactivate(const std::vector<unsigned int> &blocks)
     {
-      bool              is_any = false;
-      std::vector<bool> is_new(groups.size(), false);
       for (const unsigned int block : blocks)
       {
         const unsigned int root = root_of[block];
@@ -204,29 +184,30 @@ namespace NMM
         groups[root]            = Group();
         groups[root].n_unknowns = n;
         states[root]            = State::active;
-        is_new[root] = is_any = true;
       }
-      if (!is_any)
-        return {};
-      for (unsigned int b = 0; b < groups.size(); ++b)
-        is_new[b] = is_new[root_of[b]];
       update_active_lists();
-      return is_new;
     }
 
 
     void
     NewtonGroups::retire_converged()
     {
-      bool is_any = false;
+      bool is_any = !late_pairs.empty();
+      for (const auto &[block, other] : late_pairs)
+        if (joined.find(block) != joined.find(other))
+        {
+          join(block, other);
+          states[joined.find(block)] = State::active;
+        }
+      late_pairs.clear();
       for (const unsigned int root : all_active_roots)
-        if (groups[root].has_converged)
+        if (joined.find(root) == root && groups[root].has_converged)
         {
           states[root] = State::done;
           is_any       = true;
         }
       if (is_any)
-        update_active_lists();
+        update_roots();
     }
 
 
@@ -236,7 +217,7 @@ namespace NMM
       for (const unsigned int root : all_active_roots)
         groups[root].product = groups[root].square = 0.;
       const auto r = residual.begin(), c = correction.begin();
-      active_unknowns.for_each(residual.locally_owned_size(),
+      chosen_unknowns.for_each(residual.locally_owned_size(),
                                [&](const unsigned int i) {
                                  Group &group = of_unknown(i);
                                  group.square += r[i] * r[i];

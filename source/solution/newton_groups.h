@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <base/disjoint_sets.h>
-#include <linear_algebra/active_items.h>
+#include <linear_algebra/chosen_items.h>
 #include <solution/line_search.h>
 #include <utility>
 #include <vector>
@@ -23,12 +23,12 @@ namespace NMM
      * Newton's method solves at its own pace. Groups only ever grow during a solution. If the
      * system has no blocks, all unknowns are one group.
      *
-     * A group is active while it is being solved, and done once it has converged. A group that is
-     * held is not solved at all.
+     * A group is active while it is being solved, and done once it has converged. A group that
+     * sleeps is not solved at all.
      *
-     * Order of calls: reinit(); in each iteration assemblies of the active blocks, each followed by
-     * unite(), until reactivate() makes no other group active, then sum() after each assembly of a
-     * residual, and retire_converged().
+     * Order of calls: reinit(); in each iteration unite() after the assembly of the tangent, sum()
+     * after each assembly of a residual, and retire_converged(). Before the end, reactivate() what
+     * has not converged after all.
      */
     class NewtonGroups
     {
@@ -51,27 +51,25 @@ namespace NMM
         double product = 0., square = 0.;
       };
 
-      /// Begin a solution: all blocks are active except those that @p is_held names (empty: none).
+      /// Begin a solution: all blocks are active except those that @p sleeps names (empty: none).
       /// @p blocks gives the block of each owned unknown, or is empty. All active blocks are one
       /// group unless @p are_separate.
       void
       reinit(const std::vector<unsigned int> &blocks,
-             const std::vector<bool>         &is_held,
+             const std::vector<bool>         &sleeps,
              bool                             are_separate,
              const Vector                    &like);
 
-      /// Record that the rows of @p blocks (empty: all) of the tangent @p matrix have been
-      /// assembled. Active blocks that are coupled in these rows (by @p pairs or, if null, by
-      /// nonzero values) are one group from now on. A group that joins another one begins its
-      /// history anew.
+      /// Record that the rows of active blocks of the tangent @p matrix have been assembled. Active
+      /// blocks that are coupled in these rows by nonzero values are one group from now on; those
+      /// that are done join it in retire_converged(), since their rows have not been assembled. A group
+      /// that joins another one begins its history anew.
       void
-      unite(const std::vector<bool>                      &blocks,
-            const dealii::TrilinosWrappers::SparseMatrix &matrix,
-            const std::vector<BlockPair>                 *pairs = nullptr);
+      unite(const dealii::TrilinosWrappers::SparseMatrix &matrix);
 
       /// The same for a body matrix.
       void
-      unite(const std::vector<bool> &blocks, const BodyMatrix &matrix);
+      unite(const BodyMatrix &matrix);
 
       /// For each block, the blocks that it was coupled with when its rows were assembled last.
       const std::vector<std::vector<unsigned int>> &
@@ -122,7 +120,7 @@ namespace NMM
 
       /// Number of unknowns of active groups divided by that of all unknowns [-].
       double
-      active_share() const;
+      solved_share() const;
 
       unsigned int
       n_unknowns() const
@@ -131,11 +129,11 @@ namespace NMM
       }
 
       /// Make the groups of these blocks active again, with a new history, if they are done.
-      /// Returns for each block whether it has become active; empty if none has.
-      std::vector<bool>
+      void
       reactivate(const std::vector<unsigned int> &blocks);
 
-      /// Mark active groups that have converged as done.
+      /// Mark active groups that have converged as done, and let groups that are done join those
+      /// active ones that unite() found to be coupled with them.
       void
       retire_converged();
 
@@ -164,10 +162,10 @@ namespace NMM
       }
 
       /// Owned unknowns of active groups.
-      const ActiveItems &
+      const ChosenItems &
       unknowns() const
       {
-        return active_unknowns;
+        return chosen_unknowns;
       }
 
       /// The group of the i-th owned unknown.
@@ -192,12 +190,8 @@ namespace NMM
       {
         active,
         done,
-        held
+        asleep
       };
-
-      /// Remove the neighbours of @p blocks (empty: all).
-      void
-      clear_neighbours(const std::vector<bool> &blocks);
 
       /// Join the groups of active blocks with those of the blocks they are coupled with.
       void
@@ -228,8 +222,10 @@ namespace NMM
       std::vector<State> states;
       /// For each block, the blocks it is coupled with; see couplings().
       std::vector<std::vector<unsigned int>> neighbours;
-      ActiveItems                            active_unknowns;
-      unsigned int                           n_all = 0;
+      /// Blocks whose groups are joined by retire_converged().
+      std::vector<BlockPair> late_pairs;
+      ChosenItems            chosen_unknowns;
+      unsigned int           n_all = 0;
     };
   } // namespace internal
 } // namespace NMM

@@ -44,7 +44,7 @@ namespace NMM
     const dealii::AffineConstraints<double> *constraints = nullptr;
     NewtonReport                            *report      = nullptr;
     /// Owned unknowns: u now and before the correction, the correction, and the residual. In rows
-    /// of inactive blocks the residual is that of their last assembly.
+    /// of other blocks the residual is that of their last assembly.
     Vector owned, before, correction, residual;
     /// For each locally relevant unknown, its change in the last iteration that corrected it.
     Vector last_increment;
@@ -59,8 +59,6 @@ namespace NMM
     double rounding = 0., rounding_by_unknowns = -1.;
     /// @}
     NewtonGroups groups;
-    /// Blocks of inactive groups that active ones touched in the last assembly.
-    std::vector<unsigned int> touched;
 
     template <typename Predicate>
     Deformation
@@ -152,7 +150,7 @@ namespace NMM
   }
 
 
-  /// Assemble the residual of all blocks, also of those that are done or held.
+  /// Assemble the residual of all blocks, also of those that are done or sleep.
   Deformation
   NewtonSolver::Data::assemble_all(const Vector &u)
   {
@@ -167,17 +165,12 @@ namespace NMM
                                       const Vector            *increment,
                                       const std::vector<bool> &blocks)
   {
-    dealii::Timer timer;
-    if (groups.are_there_several())
-      system->set_active_blocks(blocks);
-    const Deformation state = system->assemble(u, tangent, increment);
-    if (groups.are_there_several())
-      for (const unsigned int block : system->take_touched_blocks())
-        touched.push_back(block);
+    dealii::Timer     timer;
+    const Deformation state = system->assemble(u, tangent, increment, blocks);
     report->assembly_time += timer.wall_time();
     if (state != Deformation::admissible)
       return state;
-    // the first assembly comprises all blocks that are not held
+    // the first assembly comprises all blocks that do not sleep
     if (blocks.empty() || scale == 0.)
       scale = system->assembled().force_scale;
     rounding    = system->assembled().force_rounding;
@@ -205,46 +198,24 @@ namespace NMM
   }
 
 
-  /// Assemble the tangent and residual of active blocks and update the groups. An active block may
-  /// press on one that is done. That one is active from then on, and only the rows of its group are
-  /// assembled in addition.
+  /// Assemble the tangent and residual of active blocks and update the groups.
   Deformation
   NewtonSolver::Data::assemble_tangent(const Vector &u, const Vector *increment)
   {
-    const unsigned int k          = report->iterations.size();
-    bool               is_partial = false;
-    system->forget_tangent();
-    std::vector<bool> blocks = all_active();
-    while (true)
-    {
-      touched.clear();
-      const unsigned int version = system->assembled().pattern_version;
-      const Deformation  state =
-        assemble_blocks(u,
-                        k > parameters.n_robust_iterations ? Tangent::consistent
-                                                           : Tangent::robust,
-                        use_increment ? increment : nullptr,
-                        blocks);
-      if (state != Deformation::admissible)
-        return state;
-      if (const BodyMatrix *body_matrix = system->assembled().body_tangent)
-        groups.unite(blocks, *body_matrix);
-      else
-        groups.unite(blocks,
-                     system->tangent(),
-                     system->assembled().coupled_blocks);
-      blocks = groups.reactivate(touched);
-      // a matrix that got another pattern has lost the rows assembled before
-      const bool is_lost =
-        is_partial && version != system->assembled().pattern_version;
-      if (is_lost)
-        blocks = all_active();
-      else if (blocks.empty())
-        break;
-      is_partial = !is_lost;
-    }
-    touched.clear();
-    return Deformation::admissible;
+    const bool is_robust =
+      report->iterations.size() <= parameters.n_robust_iterations;
+    const Deformation state =
+      assemble_blocks(u,
+                      is_robust ? Tangent::robust : Tangent::consistent,
+                      use_increment ? increment : nullptr,
+                      all_active());
+    if (state != Deformation::admissible)
+      return state;
+    if (const BodyMatrix *body_matrix = system->assembled().body_tangent)
+      groups.unite(*body_matrix);
+    else
+      groups.unite(system->tangent());
+    return state;
   }
 
 
@@ -394,7 +365,6 @@ namespace NMM
         x[i] = a[i] - groups.of_unknown(i).search.step_length() * c[i];
       });
       distribute(u);
-      touched.clear();
       state = assemble_residual(u, is_open);
       if (state == Deformation::admissible)
         groups.sum(residual, correction);
@@ -427,7 +397,7 @@ namespace NMM
       return false;
     }
     iteration.relative_residual = report->relative_residual;
-    iteration.active_share      = groups.active_share();
+    iteration.solved_share      = groups.solved_share();
     try
     {
       factorize();
@@ -555,7 +525,6 @@ namespace NMM
                                      x[j] -= c[j];
                                  });
       distribute(u);
-      touched.clear();
       if (assemble_blocks(u, Tangent::none, nullptr, blocks) !=
           Deformation::admissible)
       {
@@ -582,31 +551,28 @@ namespace NMM
     }
     if (is_any_new && !refine(u))
       return false;
-    // Reactivate before retiring: `touched` contains blocks of active groups that were not
-    // assembled, which would otherwise reactivate their own group after it has been retired.
-    groups.reactivate(touched);
     groups.retire_converged();
     if (groups.is_any_active())
       return false;
     if (!groups.are_there_several())
       return true;
 
-    // Verify all groups, because a group that was retired early may have been loaded by contacts
-    // that were not reported. The caller may also need the forces on blocks that are held.
+    // Verify all groups, because a group that was retired early may have been loaded by others since.
+    // The caller may also need the forces on blocks that sleep.
     if (assemble_all(u) != Deformation::admissible)
     {
       report->reason = "the deformation is not admissible";
       return false;
     }
     groups.sum_squares(residual);
-    const double allowed = tolerance * scale;
-    touched.clear();
+    const double              allowed = tolerance * scale;
+    std::vector<unsigned int> loaded;
     for (const unsigned int root : groups.roots())
       if (groups[root].square * groups.n_unknowns() >
             allowed * allowed * groups[root].n_unknowns &&
           groups[root].square > floor() * floor())
-        touched.push_back(root);
-    groups.reactivate(touched);
+        loaded.push_back(root);
+    groups.reactivate(loaded);
     return !groups.is_any_active();
   }
 
@@ -635,12 +601,12 @@ namespace NMM
     d.rounding  = 0.;
     d.rounding_by_unknowns = -1.;
     d.groups.reinit(system.blocks_of_unknowns(),
-                    system.held_blocks(),
+                    system.sleepers(),
                     d.parameters.solves_groups_separately,
                     d.owned);
 
     double largest_energy = 0.;
-    // if all blocks are held, only the forces are assembled
+    // if all blocks sleep, only the forces are assembled
     if (!d.groups.is_any_active())
       report.converged = d.settle(u, largest_energy);
     while (!report.converged &&
@@ -661,8 +627,6 @@ namespace NMM
     if (!report.converged && report.reason.empty())
       report.reason = "no convergence in " +
                       std::to_string(report.iterations.size()) + " iterations";
-    if (d.groups.are_there_several())
-      system.set_active_blocks({});
     return report;
   }
 } // namespace NMM

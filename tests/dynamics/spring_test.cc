@@ -585,33 +585,6 @@ namespace
   }
 
 
-  // What Newton's method is told of blocks that a spring binds, when it solves some of three.
-  TEST(Springs, ReportWhomTheyTouch)
-  {
-    Sprung       three(squares({1., 1., 1.}, 1e3),
-                 Kinematics::finite,
-                 eccentric_spring(20.));
-    const Vector u            = three.body.zero();
-    BlockTerms  &blocks       = three.model->blocks();
-    const auto   touched_from = [&](const std::vector<bool> &is_active,
-                                  const std::vector<bool> &is_held) {
-      blocks.set_active_blocks(is_active, is_held);
-      EXPECT_EQ(three.model->assemble(Trial::at(u, 0.)),
-                Deformation::admissible);
-      return blocks.take_touched_blocks();
-    };
-    using Blocks = std::vector<unsigned int>;
-    EXPECT_EQ(touched_from({}, {}), Blocks());
-    EXPECT_EQ(touched_from({true, false, false}, {}), Blocks({1}));
-    EXPECT_EQ(touched_from({false, true, true}, {}), Blocks({0}));
-    EXPECT_EQ(touched_from({false, false, true}, {}), Blocks());
-    EXPECT_EQ(touched_from({true, false, false}, {false, true, false}),
-              Blocks());
-    EXPECT_EQ(blocks.take_touched_blocks(), Blocks());
-    EXPECT_TRUE(blocks.pressed_blocks().empty());
-  }
-
-
   // Blocks bound by a spring are one group, and others are solved at their own pace.
   TEST(Springs, GroupsDoNotChangeTheResult)
   {

@@ -51,7 +51,10 @@ namespace
     }
 
     Deformation
-    assemble(const Vector &u, const Tangent tangent, const Vector *) override
+    assemble(const Vector &u,
+             const Tangent tangent,
+             const Vector *,
+             const BlockSelection &) override
     {
       const double x     = u(0);
       const bool   slips = std::abs(x) >= 1.;
@@ -96,7 +99,10 @@ namespace
 
     /// The solution is (1, 2, 3, ...).
     Deformation
-    assemble(const Vector &u, const Tangent, const Vector *) override
+    assemble(const Vector &u,
+             const Tangent,
+             const Vector *,
+             const BlockSelection &) override
     {
       Vector difference(u);
       for (unsigned int i = 0; i < u.size(); ++i)
@@ -151,7 +157,7 @@ namespace
   /**
    * Blocks of one unknown each: cubic springs r_i = u_i + u_i^3 - f_i, between which
    * nothing acts but that the first two must not come nearer than @p gap, by a spring
-   * c <u_0 - u_1 - gap>. Only rows of active blocks are made; how many is counted.
+   * c <u_0 - u_1 - gap>. Only rows of selected blocks are made; how many is counted.
    */
   class CubicSprings : public MatrixAndForces
   {
@@ -176,23 +182,17 @@ namespace
     }
 
     Deformation
-    assemble(const Vector &u, const Tangent tangent, const Vector *) override
+    assemble(const Vector &u,
+             const Tangent tangent,
+             const Vector *,
+             const BlockSelection &wanted) override
     {
-      const auto is_active = [&](const unsigned int i) {
-        return active.empty() || active[i];
-      };
       const double overlap = std::max(0., u(0) - u(1) - gap);
-      if (overlap > 0. && is_active(0) != is_active(1))
-      {
-        const unsigned int other = is_active(0) ? 1 : 0;
-        if (held.empty() || !held[other])
-          touched.push_back(other);
-      }
       for (unsigned int i = 0; i < f.size(); ++i)
       {
         // what is not asked for is not right
         forces(i) = 1e10;
-        if (!is_active(i))
+        if (!wanted.empty() && !wanted[i])
           continue;
         ++n_rows;
         const double sign = i == 0 ? 1. : -1.;
@@ -216,30 +216,16 @@ namespace
       return blocks;
     }
 
-    void
-    set_active_blocks(const std::vector<bool> &is_active) override
-    {
-      active = is_active;
-    }
-
-    std::vector<unsigned int>
-    take_touched_blocks() override
-    {
-      return std::exchange(touched, {});
-    }
-
-    using NonlinearSystem::held;
+    using NonlinearSystem::sleeping_blocks;
     unsigned int n_rows = 0;
-
-  protected:
-    double            gap;
-    std::vector<bool> active;
 
   private:
     static constexpr double c = 100.;
 
+    double gap;
+
     std::vector<double>       f;
-    std::vector<unsigned int> blocks, touched;
+    std::vector<unsigned int> blocks;
   };
 
 
@@ -273,9 +259,9 @@ namespace
     EXPECT_NEAR(u(7), 10., 1e-12);
     EXPECT_NEAR(u(8), 0., 1e-12);
     ASSERT_GT(report.iterations.size(), 5u);
-    EXPECT_EQ(report.iterations[0].active_share, 1.);
+    EXPECT_EQ(report.iterations[0].solved_share, 1.);
     for (unsigned int i = 1; i < report.iterations.size(); ++i)
-      EXPECT_EQ(report.iterations[i].active_share, 1. / n);
+      EXPECT_EQ(report.iterations[i].solved_share, 1. / n);
     // all rows for the first tangent, its residual and the last look, one row each
     // time in between: two per iteration, and what line searches take
     EXPECT_LE(system.n_rows,
@@ -299,53 +285,6 @@ namespace
   }
 
 
-  /// Says which blocks the tangent couples.
-  class SpringsThatTell : public CubicSprings
-  {
-  public:
-    using CubicSprings::CubicSprings;
-
-    Deformation
-    assemble(const Vector &u, const Tangent tangent, const Vector *v) override
-    {
-      if (tangent != Tangent::none)
-      {
-        pairs.clear();
-        if (u(0) - u(1) > gap && (active.empty() || active[0] || active[1]))
-          pairs.assign(2, BlockPair(0, 1));
-      }
-      result.coupled_blocks = &pairs;
-      return CubicSprings::assemble(u, tangent, v);
-    }
-
-  private:
-    std::vector<BlockPair> pairs;
-  };
-
-
-  // Pairs that a system tells by itself make the same groups, and the same corrections,
-  // as the values of its tangent do.
-  TEST(Newton, PairsThatAreTold)
-  {
-    const std::vector<double> f = {1010., 0., 1e5};
-    CubicSprings              searched(f, 5.);
-    SpringsThatTell           told(f, 5.);
-    NonlinearSystem::Vector   u(dealii::complete_index_set(3), MPI_COMM_SELF),
-      v(u);
-    const NewtonReport by_values = solve(searched, u),
-                       by_pairs  = solve(told, v);
-    ASSERT_TRUE(by_pairs.converged) << by_pairs.reason;
-    EXPECT_GT(100. * (v(0) - v(1) - 5.), 10.);
-    ASSERT_EQ(by_pairs.iterations.size(), by_values.iterations.size());
-    for (unsigned int i = 0; i < by_values.iterations.size(); ++i)
-      EXPECT_EQ(by_pairs.iterations[i].active_share,
-                by_values.iterations[i].active_share);
-    EXPECT_EQ(told.n_rows, searched.n_rows);
-    for (unsigned int i = 0; i < 3; ++i)
-      EXPECT_EQ(v(i), u(i));
-  }
-
-
   // From -30 over 4 the fifth correction goes to 21, through the second spring's place,
   // which is done by then; but only a share of it is taken.
   TEST(Newton, WhatIsTouchedInVainIsLeftAlone)
@@ -359,62 +298,16 @@ namespace
     EXPECT_GT(report.n_line_search_cuts, 0U);
     ASSERT_GT(report.iterations.size(), 6u);
     for (unsigned int i = 1; i < report.iterations.size(); ++i)
-      EXPECT_EQ(report.iterations[i].active_share, 1. / 3.);
-  }
-
-
-  /// The pattern has no place for the contact of the first two before it is needed, and is
-  /// made anew then: other rows are empty until they are assembled again.
-  class GrowingPattern : public CubicSprings
-  {
-  public:
-    using CubicSprings::CubicSprings;
-
-    Deformation
-    assemble(const Vector &u, const Tangent tangent, const Vector *v) override
-    {
-      if (tangent != Tangent::none && version == 0 && !active.empty() &&
-          active[1] && !active[0] && u(0) - u(1) > gap)
-      {
-        result.pattern_version = ++version;
-        matrix                 = 0.;
-      }
-      const Deformation state = CubicSprings::assemble(u, tangent, v);
-      // what is pressed on is noticed with the tangent alone
-      if (tangent == Tangent::none)
-        take_touched_blocks();
-      return state;
-    }
-
-  private:
-    unsigned int version = 0;
-  };
-
-
-  // The third spring is still being solved when the first one touches the second one,
-  // which is done.
-  TEST(Newton, RowsOfAnotherPatternAreMadeAgain)
-  {
-    GrowingPattern          system({1010., 0., 1e5}, 5.);
-    NonlinearSystem::Vector u(dealii::complete_index_set(3), MPI_COMM_SELF);
-    u(0)                      = -30.;
-    const NewtonReport report = solve(system, u);
-    ASSERT_TRUE(report.converged) << report.reason;
-    EXPECT_EQ(system.assembled().pattern_version, 1U);
-    const double press = 100. * (u(0) - u(1) - 5.);
-    EXPECT_GT(press, 10.);
-    EXPECT_NEAR(u(0) + u(0) * u(0) * u(0) + press, 1010., 1e-8);
-    EXPECT_NEAR(u(1) + u(1) * u(1) * u(1), press, 1e-8);
-    EXPECT_NEAR(u(2) + u(2) * u(2) * u(2), 1e5, 1e-8);
+      EXPECT_EQ(report.iterations[i].solved_share, 1. / 3.);
   }
 
 
   // It does not move, and is felt: u^3 + u + 100 (u - 5) = 1010.
-  TEST(Newton, WhatIsHeldStays)
+  TEST(Newton, WhatSleepsStays)
   {
     CubicSprings            system({1010., 3., 0.}, 5.);
     NonlinearSystem::Vector u(dealii::complete_index_set(3), MPI_COMM_SELF);
-    system.held               = {false, true, false};
+    system.sleeping_blocks    = {false, true, false};
     const NewtonReport report = solve(system, u);
     ASSERT_TRUE(report.converged) << report.reason;
     EXPECT_EQ(u(1), 0.);

@@ -1,6 +1,8 @@
 #ifndef nmm_base_assembly_h
 #define nmm_base_assembly_h
 
+#include <vector>
+
 /// The types by which a nonlinear solver asks for an assembly, and by which the assembly answers.
 namespace NMM
 {
@@ -27,6 +29,12 @@ namespace NMM
      */
     robust
   };
+
+
+  /// For each block, whether the rows of its unknowns are wanted from an assembly; empty: those of
+  /// all blocks. Other rows, energies and the scale of forces are undefined then. This saves time
+  /// where most blocks have converged or sleep.
+  using BlockSelection = std::vector<bool>;
 } // namespace NMM
 
 #endif

@@ -356,7 +356,7 @@ namespace NMM
     Matrix &
     tangent();
 
-    /// Add @p factor times @p matrix to the tangent, in the rows of active bodies, until the next
+    /// Add @p factor times @p matrix to the tangent, in the rows of chosen blocks, until the next
     /// assembly. The pattern of the matrix must lie within that of the tangent.
     void
     add_to_tangent(const Matrix &matrix);

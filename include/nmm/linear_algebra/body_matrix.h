@@ -70,16 +70,8 @@ namespace NMM
       return unknown_to_body[unknown];
     }
 
-    /// Remove all rows.
-    void
-    clear();
-
-    /**
-     * Start the rows of @p bodies (empty: all) anew, with a zero coupling of each body with
-     * itself. Until the next call, add() changes these rows only and leaves all other rows as
-     * they are, so that a matrix can be assembled in parts. The memory of the replaced rows is
-     * released by clear() only.
-     */
+    /// Remove everything, and begin the rows of @p bodies (empty: all) with a zero coupling of each
+    /// body with itself. Only these rows are stored, and add() leaves out all others.
     void
     begin_rows(const std::vector<bool> &bodies);
 
@@ -129,9 +121,9 @@ namespace NMM
     };
 
     bool
-    is_active(const unsigned int body) const
+    is_stored(const unsigned int body) const
     {
-      return active.empty() || active[body];
+      return stored.empty() || stored[body];
     }
 
     /// Values of a coupling, which is created if it does not exist. The pointer is valid until
@@ -144,7 +136,7 @@ namespace NMM
     append(unsigned int row, unsigned int column);
 
     std::vector<unsigned int> unknown_to_body, begins;
-    std::vector<bool>         active;
+    std::vector<bool>         stored;
     /// First coupling of each row, or none.
     std::vector<unsigned int> first_of_rows;
     std::vector<Coupling>     couplings;

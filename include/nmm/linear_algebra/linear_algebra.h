@@ -22,7 +22,7 @@
  * | nmm/linear_algebra/body_matrix.h | dense couplings of many small bodies, instead of a sparse matrix |
  * | matrix_sum.h | adds a matrix of a smaller pattern, in selected rows |
  * | extended_matrix.h | a copy of a matrix with further couplings, for forces between blocks |
- * | active_items.h | lists of rows, elements or points that belong to selected blocks |
+ * | chosen_items.h | lists of rows, elements or points that belong to selected blocks |
  * | linear_solver.h | symmetric positive definite systems with one matrix, direct or iterative |
  * | matrix_rows.h | the rows of this rank of an Epetra matrix, as arrays |
  * | direct_solver.h | a factorization that is used many times; selects one of the direct solvers |

@@ -175,11 +175,10 @@ namespace NMM
     void
     set_absent_blocks(const std::vector<bool> &is_absent);
 
-    /// Assemble only the elements of active blocks from now on. Rows of inactive blocks are
-    /// undefined in residual and tangent; energies and force_scale() are those of active blocks.
-    /// Empty: all blocks are active.
+    /// Assemble only the elements of these blocks from now on. Energies and force_scale() are
+    /// theirs, too.
     void
-    set_active_blocks(const std::vector<bool> &is_active);
+    restrict_to(const BlockSelection &blocks);
 
     /// Pairs of different blocks that are tied to each other, as far as this rank knows them.
     std::vector<std::pair<unsigned int, unsigned int>>

@@ -140,6 +140,16 @@ namespace NMM
     const Vector *increment = nullptr;
     /// Whether the energies of AssembledForces are wanted, which may cost a further evaluation.
     bool with_energies = true;
+    /// Blocks that forces are wanted for; null: all. A term may ignore it.
+    const BlockSelection *selection = nullptr;
+
+    /// The value of `selection`.
+    const BlockSelection &
+    blocks() const
+    {
+      static const BlockSelection all;
+      return selection == nullptr ? all : *selection;
+    }
 
     /// Forces of the displacements @p u at the time @p t [s].
     static Trial
@@ -209,8 +219,6 @@ namespace NMM
     BodyMatrix *body_tangent = nullptr;
     /// A number that changes whenever K has a new sparsity pattern.
     unsigned int pattern_version = 0;
-    /// See AssembledSystem::coupled_blocks; null: unknown.
-    const std::vector<BlockPair> *coupled_blocks = nullptr;
   };
 
 
@@ -289,7 +297,7 @@ namespace NMM
    * linear (properties()). What is known of the kinematics, if it matters, is told to the
    * constructor. Where blocks may leave
    * or be removed, set_presence() notes which of MaterialVector::blocks are absent, and assemble()
-   * leaves out what belongs to them. A term that uses only the sink is not derived from BlockTerm.
+   * leaves out what belongs to them.
    *
    * The same terms act in motion (MechanicalModel, TimeIntegrator) and at rest: NonlinearStatics and
    * ContactStatics take a list of them. At rest the time is the load factor, and Trial::begin is
@@ -352,6 +360,14 @@ namespace NMM
       return {};
     }
 
+    /// For each block, whether other blocks press on it at the beginning of the step. Empty: none is
+    /// pressed, or all blocks are solved together.
+    virtual std::vector<bool>
+    pressed_blocks() const
+    {
+      return {};
+    }
+
     /// Apply events, such as the removal of a support, and the absence of blocks to the forces of
     /// all following assemblies.
     virtual void
@@ -402,44 +418,6 @@ namespace NMM
     std::vector<double> event_times;
     /// See fingerprint().
     std::uint64_t hash = 0;
-  };
-
-
-  /// The interface of terms that can be assembled for some blocks only, which saves time where
-  /// most blocks have converged or sleep. MechanicalModel::blocks() calls it.
-  class BlockTerm
-  {
-  public:
-    virtual ~BlockTerm() = default;
-
-    /// From now on forces are needed in the rows of active blocks only (empty: all); other rows,
-    /// energies and the scale are undefined. Blocks in @p is_held do not move: they are
-    /// inactive, and take_touched_blocks() does not report them.
-    virtual void
-    set_active_blocks(const std::vector<bool> &is_active,
-                      const std::vector<bool> &is_held) = 0;
-
-    /// Blocks that are neither active nor held, and that have been in contact with an active one
-    /// since the last call of this function.
-    virtual std::vector<unsigned int>
-    take_touched_blocks()
-    {
-      return {};
-    }
-
-    /// For each block, whether it has a closed contact point at the beginning of the step. Empty:
-    /// no block has, or all blocks are solved together.
-    virtual std::vector<bool>
-    pressed_blocks() const
-    {
-      return {};
-    }
-
-    /// Rows of the tangent that have been assembled so far need not be kept.
-    virtual void
-    forget_tangent()
-    {
-    }
   };
 } // namespace NMM
 

@@ -15,31 +15,6 @@ namespace NMM
   } // namespace internal
 
 
-  /// The adapter through which a solver chooses the blocks that terms work on.
-  class BlockTerms
-  {
-  public:
-    /// @{
-    /// See BlockTerm.
-    void
-    set_active_blocks(const std::vector<bool> &is_active,
-                      const std::vector<bool> &is_held);
-
-    std::vector<unsigned int>
-    take_touched_blocks();
-
-    std::vector<bool>
-    pressed_blocks() const;
-
-    void
-    forget_tangent();
-    /// @}
-
-    /// Terms to which the calls are passed on.
-    std::vector<BlockTerm *> terms;
-  };
-
-
   /**
    * The forces r(u, t) of a body as the sum of a list of terms, such as the solid (FiniteSolid,
    * SmallSolid), contact (ContactTerm) and springs (SpringTerm), which are called in the order of the
@@ -74,7 +49,8 @@ namespace NMM
     }
 
     /// @{
-    /// See ForceTerm; properties hold if all terms have them, and the first fault is the result.
+    /// See ForceTerm; properties hold if all terms have them, the first fault is the result, and a
+    /// block is pressed if a term says so.
     void
     begin_step(const StepBegin &step);
 
@@ -86,6 +62,9 @@ namespace NMM
 
     StepFault
     find_fault(const Vector &end);
+
+    std::vector<bool>
+    pressed_blocks() const;
 
     void
     forget();
@@ -126,17 +105,9 @@ namespace NMM
     void
     restore_internal_state(std::vector<char> state);
 
-    /// The terms that can be assembled for some blocks only.
-    BlockTerms &
-    blocks()
-    {
-      return block_terms;
-    }
-
   private:
     const ModelLayout       *unknowns;
     std::vector<ForceTerm *> terms;
-    BlockTerms               block_terms;
     Presence                 presence;
     AssembledForces          sum;
     /// What terms add to the sink; null: no term has couplings.

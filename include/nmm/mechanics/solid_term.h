@@ -23,7 +23,7 @@ namespace NMM
    * Lifetime: the elasticity must outlive this object, and from then on only this object may set
    * its load amplitudes.
    */
-  class SolidTerm : public ForceTerm, public BlockTerm
+  class SolidTerm : public ForceTerm
   {
   public:
     /// The unknowns of the solid, for a MechanicalModel.
@@ -65,10 +65,6 @@ namespace NMM
     void
     restore(ByteReader &archive) override;
     /// @}
-
-    void
-    set_active_blocks(const std::vector<bool> &is_active,
-                      const std::vector<bool> &is_held) override;
 
     /// The theory whose forces these are.
     virtual Kinematics
@@ -188,8 +184,6 @@ namespace NMM
     /// The undeformed state: locally relevant unknowns, zero except for inhomogeneities of the
     /// constraints [m].
     Vector zero;
-    /// Whether all blocks are active, see set_active_blocks().
-    bool all_blocks_are_active = true;
     /// Forces of inelastic materials; null if there are none.
     std::unique_ptr<InelasticTerms> inelastic;
     /// Inelastic forces at the beginning of the step [N/m].
@@ -354,7 +348,7 @@ namespace NMM
     void
     assemble_owned(double t, const LoadAmplitudes &amplitudes);
 
-    /// Add the energies of the material and of conditions at @p u, unless some blocks are inactive.
+    /// Add the energies of the material and of conditions at @p u.
     void
     add_energies(const Vector         &u,
                  const LoadAmplitudes &amplitudes,

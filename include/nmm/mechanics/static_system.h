@@ -55,9 +55,10 @@ namespace NMM
                double        to);
 
     Deformation
-    assemble(const Vector &u,
-             Tangent       tangent,
-             const Vector *increment) override;
+    assemble(const Vector         &u,
+             Tangent               tangent,
+             const Vector         *increment,
+             const BlockSelection &blocks = {}) override;
 
     /// Let r_0 be the sum of all terms at the undeformed state @p u and the load factor 0.
     /// @throws NumericalFailure if it cannot be assembled.

@@ -70,11 +70,8 @@ namespace NMM
     /// Whether K is symmetric, so that a symmetric factorization may be used.
     bool is_symmetric = false;
     /// A number that changes whenever K has a new sparsity pattern. Only the rows that were
-    /// assembled last have valid values then.
+    /// assembled last have valid values.
     unsigned int pattern_version = 0;
-    /// Pairs of blocks that K couples in rows of active blocks; a pair may occur several times.
-    /// Null: unknown; the nonzero entries of K tell.
-    const std::vector<BlockPair> *coupled_blocks = nullptr;
     /// @}
   };
 
@@ -90,13 +87,16 @@ namespace NMM
     virtual ~NonlinearSystem() = default;
 
     /**
-     * Assemble the residual r(u) and, unless @p tangent is Tangent::none, K(u) = dr/du. @p u has
-     * the locally relevant unknowns. @p increment, if given, is the change of u in the last
-     * iteration: the tangent may use it to converge faster, as long as it is
-     * dr/du where the increment vanishes.
+     * Assemble the residual r(u) and, unless @p tangent is Tangent::none, K(u) = dr/du, in the rows
+     * of @p blocks. @p u has the locally relevant unknowns. @p increment, if given, is the change of u
+     * in the last iteration: the tangent may use it to converge faster, as long as it is dr/du where
+     * the increment vanishes. A system without blocks_of_unknowns() is asked for all rows only.
      */
     virtual Deformation
-    assemble(const Vector &u, Tangent tangent, const Vector *increment) = 0;
+    assemble(const Vector         &u,
+             Tangent               tangent,
+             const Vector         *increment,
+             const BlockSelection &blocks) = 0;
 
     /// The result of the last assembly.
     const AssembledSystem &
@@ -128,42 +128,19 @@ namespace NMM
     virtual const std::vector<unsigned int> &
     blocks_of_unknowns() const;
 
-    /// From now on assemble() need be correct in the rows of these blocks only (empty: all).
-    /// Rows of inactive blocks and the force scale are undefined, but the tangent stays regular.
-    virtual void
-    set_active_blocks(const std::vector<bool> & /*is_active*/)
-    {
-    }
-
-    /// Blocks that are neither active nor held, and that have been in contact with an active one
-    /// since the last call of this function.
-    virtual std::vector<unsigned int>
-    take_touched_blocks()
-    {
-      return {};
-    }
-
-    /// Tell the system that the next tangents belong to another state, so that rows assembled
-    /// before need not be kept.
-    virtual void
-    forget_tangent()
-    {
-    }
-
-    /// For each block, whether it is held: it does not move, whatever acts on it. Empty: no block
-    /// is held.
+    /// For each block, whether it sleeps: it does not move, whatever acts on it. Empty: none does.
     const std::vector<bool> &
-    held_blocks() const
+    sleepers() const
     {
-      return held;
+      return sleeping_blocks;
     }
     /// @}
 
   protected:
     /// See assembled(); set by assemble().
     AssembledSystem result;
-    /// See held_blocks().
-    std::vector<bool> held;
+    /// See sleepers().
+    std::vector<bool> sleeping_blocks;
   };
 
 
@@ -211,15 +188,15 @@ namespace NMM
     /// An entry of the history.
     struct Iteration
     {
-      /// |r| / force scale of the active unknowns before the correction [-].
+      /// |r| / force scale of the unknowns that are still solved for, before the correction [-].
       double relative_residual = 0.;
-      /// Sum over all active groups of |r . du|, r being the residual before the correction du
+      /// Sum over all groups that are still solved of |r . du|, r being the residual before the correction du
       /// [J/m].
       double energy = 0.;
       /// Step length of the correction, the smallest one of all groups [-].
       double line_search = 1.;
-      /// Number of unknowns of active groups divided by that of all unknowns [-].
-      double active_share = 1.;
+      /// Number of unknowns that were solved for, divided by that of all unknowns [-].
+      double solved_share = 1.;
     };
 
     /// Whether both tolerances were met, or the residual is at the floor that rounding leaves.
@@ -267,9 +244,9 @@ namespace NMM
    * Groups of blocks that do not touch each other are separate systems. Each group has its own
    * eta and converges by itself. Its share of both tolerances is its share of the unknowns, so
    * that all groups together meet them. A group that has converged is neither assembled nor
-   * factorized until an active block presses on it. Finally everything is assembled once more to
-   * verify the solution. So a block that needs many iterations does not add to the cost of the
-   * others.
+   * factorized until the tangent of another group couples with it. Finally everything is assembled
+   * once more to verify the solution. So a block that needs many iterations does not add to the cost
+   * of the others.
    *
    * A residual is a sum of forces that have been rounded. Its floor is estimated from
    * AssembledSystem::force_rounding, for example of stiff springs that multiply the rounding of gaps,

@@ -17,12 +17,12 @@ namespace NMM
       const dealii::AffineConstraints<double> &constraints,
       const ContactSearch                     &search,
       const StickPlaces                       &stick_places,
-      const ActiveBodies                      &active)
+      const ChosenBodies                      &chosen)
       : surface(&surface)
       , constraints(&constraints)
       , search(&search)
       , stick_places(&stick_places)
-      , active(&active)
+      , chosen(&chosen)
       , communicator(surface.cover_system().communicator())
     {
       forces.reinit(surface.cover_system().locally_owned_dofs(2), communicator);
@@ -107,7 +107,7 @@ namespace NMM
     void
     ContactMatrix::add_to_tangent(const Matrix &other)
     {
-      add_rows(1., other, matrix, active->active_rows());
+      add_rows(1., other, matrix, chosen->rows());
     }
 
 
@@ -243,7 +243,7 @@ namespace NMM
       couple_ties();
       assembler->ignore_inhomogeneities();
       assembler->leave_empty_rows();
-      assembler->restrict_to(active->active_covers());
+      assembler->restrict_to(chosen->covers());
       assembler->build(matrix, forces);
       ++version;
     }

@@ -4,7 +4,7 @@
 #include <nmm/contact/contact.h>
 #include <nmm/linear_algebra/body_matrix.h>
 
-#include <contact/assembly/active_bodies.h>
+#include <contact/assembly/chosen_bodies.h>
 #include <contact/assembly/point_terms.h>
 #include <contact/detection/points.h>
 #include <contact/detection/search.h>
@@ -41,7 +41,7 @@ namespace NMM
                     const dealii::AffineConstraints<double> &constraints,
                     const ContactSearch                     &search,
                     const StickPlaces                       &stick_places,
-                    const ActiveBodies                      &active);
+                    const ChosenBodies                      &chosen);
 
       /// Update after a search that found new candidate pairs, or after a change of anchors.
       void
@@ -130,7 +130,7 @@ namespace NMM
       const dealii::AffineConstraints<double> *constraints;
       const ContactSearch                     *search;
       const StickPlaces                       *stick_places;
-      const ActiveBodies                      *active;
+      const ChosenBodies                      *chosen;
       MPI_Comm                                 communicator;
 
       /// Couplings by append_couplings(): at the current positions, and when the pattern was begun.

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <linear_algebra/active_items.h>
+#include <linear_algebra/chosen_items.h>
 #include <linear_algebra/matrix_rows.h>
 #include <utility>
 
@@ -19,13 +19,11 @@ namespace NMM
     Contact                     *contact;
     std::vector<ObstacleRelease> releases;
     ContactUpdate                update = ContactUpdate::every_iteration;
-    internal::ActiveItems        active_rows;
+    internal::ChosenItems        chosen_rows;
     Vector                       sum;
     double                       step_end = 0., dissipated = 0.;
     /// The tangent as a body matrix (null until it is needed).
     std::unique_ptr<BodyMatrix> body_matrix;
-    /// For each block, whether it is active; empty: all are.
-    std::vector<bool> active;
     /// Whether the tangent of the other terms couples no two blocks, so that only contact does.
     /// This is known from the first tangent on.
     bool is_block_diagonal = false, is_block_diagonal_known = false;
@@ -34,7 +32,13 @@ namespace NMM
     detect_block_diagonal(const Matrix &tangent);
 
     BodyMatrix *
-    begin_body_matrix();
+    begin_body_matrix(const BlockSelection &blocks);
+
+    void
+    restrict_to(const BlockSelection &blocks);
+
+    Deformation
+    assemble(const Trial &trial, AssembledForces &total);
 
     void
     assemble_conserving(const Trial &trial, AssembledForces &total);
@@ -65,7 +69,7 @@ namespace NMM
   /// Start the rows of the body matrix for the tangent of a step. Returns null if the tangent
   /// must be a sparse matrix.
   BodyMatrix *
-  ContactTerm::Data::begin_body_matrix()
+  ContactTerm::Data::begin_body_matrix(const BlockSelection &blocks)
   {
     const std::vector<unsigned int> &block_of = layout->blocks_of_unknowns;
     if (!is_block_diagonal ||
@@ -73,7 +77,7 @@ namespace NMM
       return nullptr;
     if (body_matrix == nullptr)
       body_matrix = std::make_unique<BodyMatrix>(block_of);
-    body_matrix->begin_rows(active);
+    body_matrix->begin_rows(blocks);
     return body_matrix.get();
   }
 
@@ -85,17 +89,15 @@ namespace NMM
     const bool with_tangent = trial.tangent != Tangent::none;
     if (with_tangent && !is_block_diagonal_known)
       detect_block_diagonal(*total.tangent);
-    static const std::vector<BlockPair> none;
-    if (with_tangent && is_block_diagonal)
-      total.coupled_blocks = &none;
     if (contact->is_idle())
       return;
 
     const bool is_writable =
       with_tangent &&
       dealii::Utilities::MPI::n_mpi_processes(layout->communicator) == 1;
-    BodyMatrix *const bodies = is_writable ? begin_body_matrix() : nullptr;
-    ContactTimeStep   step(*contact);
+    BodyMatrix *const bodies =
+      is_writable ? begin_body_matrix(trial.blocks()) : nullptr;
+    ContactTimeStep step(*contact);
     step.assemble(*trial.end, trial.end_time, with_tangent, bodies);
     add_forces(total);
     if (!with_tangent)
@@ -108,8 +110,6 @@ namespace NMM
     total.tangent          = &contact->tangent();
     total.writable_tangent = is_writable ? &contact->tangent() : nullptr;
     total.pattern_version  = contact->pattern_version();
-    if (is_block_diagonal)
-      total.coupled_blocks = &step.coupled_bodies();
   }
 
 
@@ -120,7 +120,7 @@ namespace NMM
     const auto of_others  = std::as_const(*total.residual).begin();
     const auto of_contact = std::as_const(*contact).residual().begin();
     double     square     = 0.;
-    active_rows.for_each(sum.locally_owned_size(), [&](const unsigned int i) {
+    chosen_rows.for_each(sum.locally_owned_size(), [&](const unsigned int i) {
       to[i] = of_others[i] + of_contact[i];
       square += of_contact[i] * of_contact[i];
     });
@@ -192,31 +192,50 @@ namespace NMM
 
 
   Deformation
-  ContactTerm::assemble(const Trial &trial, AssembledForces &sum)
+  ContactTerm::Data::assemble(const Trial &trial, AssembledForces &total)
   {
-    Data &d = *data;
     if (trial.is_conserving)
     {
-      Assert(d.update == ContactUpdate::every_iteration,
+      Assert(update == ContactUpdate::every_iteration,
              dealii::ExcMessage("Conserving forces need exact geometry."));
-      d.assemble_conserving(trial, sum);
+      assemble_conserving(trial, total);
       return Deformation::admissible;
     }
-    d.contact->set_time(trial.end_time);
-    if (!d.contact->is_detected())
-      d.contact->detect(*trial.end);
-    if (d.contact->is_idle())
+    contact->set_time(trial.end_time);
+    if (!contact->is_detected())
+      contact->detect(*trial.end);
+    if (contact->is_idle())
       return Deformation::admissible;
     const bool with_tangent = trial.tangent != Tangent::none;
-    d.contact->assemble(*trial.end, with_tangent);
-    d.add_forces(sum);
+    contact->assemble(*trial.end, with_tangent);
+    add_forces(total);
     if (with_tangent)
     {
-      d.contact->add_to_tangent(*sum.tangent);
-      sum.tangent         = &d.contact->tangent();
-      sum.pattern_version = d.contact->pattern_version();
+      contact->add_to_tangent(*total.tangent);
+      total.tangent         = &contact->tangent();
+      total.pattern_version = contact->pattern_version();
     }
     return Deformation::admissible;
+  }
+
+
+  void
+  ContactTerm::Data::restrict_to(const BlockSelection &blocks)
+  {
+    ContactTimeStep(*contact).restrict_to(blocks);
+    if (!blocks.empty() && chosen_rows.empty())
+      chosen_rows.reinit(layout->blocks_of_unknowns);
+    chosen_rows.select(blocks);
+  }
+
+
+  Deformation
+  ContactTerm::assemble(const Trial &trial, AssembledForces &sum)
+  {
+    data->restrict_to(trial.blocks());
+    const Deformation state = data->assemble(trial, sum);
+    data->restrict_to({});
+    return state;
   }
 
 
@@ -307,25 +326,6 @@ namespace NMM
   }
 
 
-  void
-  ContactTerm::set_active_blocks(const std::vector<bool> &is_active,
-                                 const std::vector<bool> &is_held)
-  {
-    ContactTimeStep(*data->contact).set_active_bodies(is_active, is_held);
-    data->active = is_active;
-    if (!is_active.empty() && data->active_rows.empty())
-      data->active_rows.reinit(data->layout->blocks_of_unknowns);
-    data->active_rows.select(is_active);
-  }
-
-
-  std::vector<unsigned int>
-  ContactTerm::take_touched_blocks()
-  {
-    return ContactTimeStep(*data->contact).take_touched();
-  }
-
-
   std::vector<bool>
   ContactTerm::pressed_blocks() const
   {
@@ -335,14 +335,6 @@ namespace NMM
     // remove the entries of obstacles, which come last
     result.resize(data->layout->n_blocks);
     return result;
-  }
-
-
-  void
-  ContactTerm::forget_tangent()
-  {
-    if (data->body_matrix)
-      data->body_matrix->clear();
   }
 
 

@@ -430,11 +430,8 @@ namespace NMM
   Contact::Data::set_step_states(const Vector &end)
   {
     std::vector<Tensor<1, 2>> &at_end = step.end.nodal;
-    read_nodal_values(surface->cover_system(),
-                      end,
-                      active.active_covers(),
-                      at_end);
-    active.for_each_cover(at_end.size(), [&](const unsigned int k) {
+    read_nodal_values(surface->cover_system(), end, chosen.covers(), at_end);
+    chosen.for_each_cover(at_end.size(), [&](const unsigned int k) {
       step.middle.nodal[k] = 0.5 * (step.nodal_begin[k] + at_end[k]);
     });
     update_faces();
@@ -445,7 +442,7 @@ namespace NMM
   Contact::Data::update_faces()
   {
     surface->set_state(step.end);
-    active.for_each_edge([&](const unsigned int e) {
+    chosen.for_each_edge([&](const unsigned int e) {
       surface->update(step.end, e);
       surface->update(step.middle, e);
     });
@@ -455,7 +452,7 @@ namespace NMM
   void
   Contact::Data::move_as_expected()
   {
-    active.for_each_cover(step.nodal_expected.size(),
+    chosen.for_each_cover(step.nodal_expected.size(),
                           [&](const unsigned int k) {
                             step.end.nodal[k] = step.nodal_expected[k];
                           });
@@ -467,7 +464,7 @@ namespace NMM
   Contact::Data::find_ends()
   {
     step.near_points.clear();
-    const std::vector<unsigned int> &numbers = active_points();
+    const std::vector<unsigned int> &numbers = chosen_points();
     for_each_in_order<PointEnd>(
       0,
       numbers.size(),
@@ -534,8 +531,6 @@ namespace NMM
               d.stage == Data::Stage::step_assembled ||
               d.stage == Data::Stage::step_ended);
     d.sums.begin();
-    if (with_tangent)
-      d.active.clear_coupled();
     if (d.is_idle)
     {
       d.matrix.clear_forces();
@@ -585,25 +580,10 @@ namespace NMM
 
 
   void
-  ContactTimeStep::set_active_bodies(const std::vector<bool> &is_active,
-                                     const std::vector<bool> &is_held)
+  ContactTimeStep::restrict_to(const BlockSelection &blocks)
   {
-    data->active.select(is_active, is_held);
+    data->chosen.select(blocks);
     data->list_points_of_bodies();
-  }
-
-
-  const std::vector<BlockPair> &
-  ContactTimeStep::coupled_bodies() const
-  {
-    return data->active.coupled();
-  }
-
-
-  std::vector<unsigned int>
-  ContactTimeStep::take_touched()
-  {
-    return data->active.take_touched();
   }
 
 

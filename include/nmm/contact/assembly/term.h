@@ -54,7 +54,7 @@ namespace NMM
    * Lifetime: layout and contact must outlive this object. Multipliers of the contact
    * are not updated.
    */
-  class ContactTerm : public ForceTerm, public BlockTerm
+  class ContactTerm : public ForceTerm
   {
   public:
     /// Forces of @p contact, which was made for the unknowns of @p layout. @p releases may have
@@ -95,18 +95,8 @@ namespace NMM
     void
     restore_history(const ContactHistory &history);
 
-    void
-    set_active_blocks(const std::vector<bool> &is_active,
-                      const std::vector<bool> &is_held) override;
-
-    std::vector<unsigned int>
-    take_touched_blocks() override;
-
     std::vector<bool>
     pressed_blocks() const override;
-
-    void
-    forget_tangent() override;
 
     /// Energy that friction, dashpots and breaking bonds dissipated in the last step [J/m].
     double

@@ -1,6 +1,7 @@
 #ifndef nmm_contact_assembly_time_step_h
 #define nmm_contact_assembly_time_step_h
 
+#include <nmm/base/assembly.h>
 #include <nmm/contact/contact.h>
 #include <nmm/linear_algebra/body_matrix.h>
 
@@ -10,7 +11,7 @@ namespace NMM
 {
   /**
    * What a Contact does in time steps only: its states at the beginning and at the end of a step,
-   * forces that conserve energy, and blocks that do not move for a while. It has no data of its
+   * forces that conserve energy, and those of some blocks only. It has no data of its
    * own, so that it can be made wherever it is needed; the order of calls is that of Contact:
    * @code
    * contact.set_time(t);
@@ -82,23 +83,10 @@ namespace NMM
              bool          with_tangent,
              BodyMatrix   *body_matrix = nullptr);
 
-    /// Let assemblies skip points between two inactive blocks; these points stay as the last
-    /// assembly found them, and the rows of inactive blocks are undefined. Blocks that are held are
-    /// not returned by take_touched(). Both vectors have one entry for each block; if they are
-    /// empty, all blocks are active, and none is held.
+    /// Let assemblies skip points that belong to none of these blocks; they stay as the last assembly
+    /// found them, and the rows of other blocks are undefined.
     void
-    set_active_bodies(const std::vector<bool> &is_active,
-                      const std::vector<bool> &is_held);
-
-    /// Blocks that are neither active nor held and that touched an active one in an assembly
-    /// since the last call of this function.
-    std::vector<unsigned int>
-    take_touched();
-
-    /// Pairs of bodies with unknowns that the last assemble() with a tangent has coupled
-    /// in rows of active bodies; a pair may occur several times. For one rank.
-    const std::vector<BlockPair> &
-    coupled_bodies() const;
+    restrict_to(const BlockSelection &blocks);
 
     /// Work that moving obstacles do [J/m] with the forces of the last assembly
     /// from @p time_begin to @p time_end.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
-#include <linear_algebra/active_items.h>
+#include <linear_algebra/chosen_items.h>
 #include <random>
 #include <set>
 
@@ -12,7 +12,7 @@ using namespace NMM::internal;
 namespace
 {
   std::vector<unsigned int>
-  all_of(const ActiveItems &items, const unsigned int n)
+  all_of(const ChosenItems &items, const unsigned int n)
   {
     std::vector<unsigned int> result;
     items.for_each(n, [&](const unsigned int i) { result.push_back(i); });
@@ -22,7 +22,7 @@ namespace
 
   // Each item belongs to none, one or several of the blocks; those chosen before leave
   // nothing behind.
-  TEST(ActiveItems, OfRandomBlocks)
+  TEST(ChosenItems, OfRandomBlocks)
   {
     const unsigned int seed = 20261123;
     std::mt19937       generator(seed);
@@ -35,7 +35,7 @@ namespace
       for (auto &blocks : item_to_blocks)
         for (int k = number(generator); k > 0; --k)
           blocks.insert(block(generator));
-      ActiveItems items;
+      ChosenItems items;
       EXPECT_TRUE(items.empty());
       items.reinit(n, [&](const auto &add) {
         for (unsigned int i = 0; i < n; ++i)

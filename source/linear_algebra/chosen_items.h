@@ -1,5 +1,5 @@
-#ifndef nmm_source_linear_algebra_active_items_h
-#define nmm_source_linear_algebra_active_items_h
+#ifndef nmm_source_linear_algebra_chosen_items_h
+#define nmm_source_linear_algebra_chosen_items_h
 
 #include <cstdint>
 #include <vector>
@@ -9,11 +9,11 @@ namespace NMM
   namespace internal
   {
     /**
-     * The items (rows, elements or contact points) that belong to the active blocks, in ascending
-     * order. All blocks are active at first.
-     * Cost of select(): O(active items), and a bit for each item and block.
+     * The items (rows, elements or contact points) that belong to chosen blocks, in ascending
+     * order. All blocks are chosen at first.
+     * Cost of select(): O(chosen items), and a bit for each item and block.
      */
-    class ActiveItems
+    class ChosenItems
     {
     public:
       /// Set the items 0 to @p n - 1. @p for_each is a function that calls its argument with each
@@ -35,7 +35,7 @@ namespace NMM
           of_blocks[begins[block + 1]++] = item;
         });
         is_known = true;
-        active.clear();
+        of_chosen.clear();
         bits.assign((n + 63) / 64, 0);
         select({});
       }
@@ -65,14 +65,14 @@ namespace NMM
         return !is_known;
       }
 
-      /// Activate @p blocks; empty: all.
+      /// Choose @p blocks; empty: all.
       void
       select(const std::vector<bool> &blocks)
       {
         is_all = blocks.empty();
-        for (const unsigned int item : active)
+        for (const unsigned int item : of_chosen)
           bits[item / 64] = 0;
-        active.clear();
+        of_chosen.clear();
         for (unsigned int b = 0; b < blocks.size() && b + 2 < begins.size();
              ++b)
           if (blocks[b])
@@ -81,31 +81,31 @@ namespace NMM
                                          << (of_blocks[i] % 64);
         for (unsigned int word = 0; !is_all && word < bits.size(); ++word)
           for (std::uint64_t rest = bits[word]; rest != 0; rest &= rest - 1)
-            active.push_back(64 * word + __builtin_ctzll(rest));
+            of_chosen.push_back(64 * word + __builtin_ctzll(rest));
       }
 
-      /// Whether all blocks are active.
+      /// Whether all blocks are chosen.
       bool
       all() const
       {
         return is_all;
       }
 
-      /// Whether an item is active.
+      /// Whether an item is chosen.
       bool
       contains(const unsigned int item) const
       {
         return is_all || (bits[item / 64] >> (item % 64) & 1) != 0;
       }
 
-      /// Active items in ascending order; undefined if all() is true.
+      /// Chosen items in ascending order; undefined if all() is true.
       const std::vector<unsigned int> &
       chosen() const
       {
-        return active;
+        return of_chosen;
       }
 
-      /// Call action(item) for all active items; if all() is true, these are 0 to @p n - 1.
+      /// Call action(item) for all chosen items; if all() is true, these are 0 to @p n - 1.
       template <typename Action>
       void
       for_each(const unsigned int n, const Action &action) const
@@ -114,16 +114,16 @@ namespace NMM
           for (unsigned int i = 0; i < n; ++i)
             action(i);
         else
-          for (const unsigned int i : active)
+          for (const unsigned int i : of_chosen)
             action(i);
       }
 
     private:
       bool is_all = true, is_known = false;
       /// Items sorted by block (of_blocks), the index of the first item of each block (begins),
-      /// and the active items.
-      std::vector<unsigned int> begins, of_blocks, active;
-      /// For each item, a bit that is set if the item is in the list of active items.
+      /// and the chosen items.
+      std::vector<unsigned int> begins, of_blocks, of_chosen;
+      /// For each item, a bit that is set if the item is in the list of chosen items.
       std::vector<std::uint64_t> bits;
     };
   } // namespace internal

@@ -1,27 +1,24 @@
-#include <contact/assembly/active_bodies.h>
+#include <contact/assembly/chosen_bodies.h>
 
 namespace NMM
 {
   namespace internal
   {
     void
-    ActiveBodies::select(const std::vector<bool> &new_is_active,
-                         const std::vector<bool> &new_is_held)
+    ChosenBodies::select(const std::vector<bool> &new_bodies)
     {
-      is_active = new_is_active;
-      is_held   = new_is_held;
-      is_held.resize(is_active.size(), false);
-      points.select(is_active);
-      if (!is_active.empty() && covers.empty())
+      bodies = new_bodies;
+      points.select(bodies);
+      if (!bodies.empty() && all_covers.empty())
         list_covers_and_edges();
-      covers.select(is_active);
-      edges.select(is_active);
-      rows.select(is_active);
+      all_covers.select(bodies);
+      edges.select(bodies);
+      all_rows.select(bodies);
     }
 
 
     void
-    ActiveBodies::list_covers_and_edges()
+    ChosenBodies::list_covers_and_edges()
     {
       const CoverSystem        &cover_system = surface->cover_system();
       const ManifoldMesh       &mesh         = cover_system.manifold_mesh();
@@ -31,8 +28,8 @@ namespace NMM
         for (const unsigned int k : cover_system.covers(e))
           cover_to_body[k]                = row_to_body[unknown_of(k, 0)] =
             row_to_body[unknown_of(k, 1)] = mesh.block(e);
-      covers.reinit(cover_to_body);
-      rows.reinit(row_to_body);
+      all_covers.reinit(cover_to_body);
+      all_rows.reinit(row_to_body);
       edges.reinit(surface->edges().size(), [&](const auto &add) {
         for (unsigned int e = 0; e < surface->edges().size(); ++e)
           if (!surface->is_rigid(e))

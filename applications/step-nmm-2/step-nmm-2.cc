@@ -16,7 +16,7 @@
 #include <nmm/covers/manifold_mesh.h>
 #include <nmm/covers/mathematical_mesh.h>
 #include <nmm/geometry/physical_mesh.h>
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 #include <nmm/mechanics/displacement_field.h>
 #include <nmm/mechanics/finite_elasticity.h>
 #include <nmm/mechanics/nonlinear_statics.h>

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <contact/data.h>
+#include <contact/contact.h>
 #include <mechanics/nodal_values.h>
 #include <utility>
 

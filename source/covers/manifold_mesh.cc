@@ -1,12 +1,12 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/covers/manifold_mesh.h>
-#include <nmm/covers/point_location.h>
 
 #include "cutting.h"
 #include "manifold_mesh_data.h"
 #include "parts_to_cut.h"
 #include <algorithm>
 #include <base/angle_minus_sine.h>
+#include <cmath>
 #include <mutex>
 
 namespace NMM
@@ -20,6 +20,25 @@ namespace NMM
     using internal::BoostPoint;
     using internal::CellTree;
   } // namespace
+
+
+  double
+  swept_angle(const ElementEdge &edge)
+  {
+    if (!edge.is_arc())
+      return 0.;
+    const Tensor<1, 2> chord  = edge.end - edge.start;
+    const double       length = chord.norm();
+    if (length == 0.)
+      return 0.;
+    // Middle of the chord minus the centre; differences are taken first to avoid cancellation.
+    const Tensor<1, 2> middle =
+      0.5 * ((edge.start - edge.center) + (edge.end - edge.center));
+    // For a chord of a few ulp, rounding determines its direction. Its distance from the centre is
+    // therefore that of its middle.
+    const double half = std::atan2(0.5 * length, middle.norm());
+    return std::copysign(2. * half, edge.radius);
+  }
 
 
   ManifoldMesh::ManifoldMesh(const MathematicalMesh          &mathematical_mesh,

@@ -69,25 +69,6 @@ namespace NMM
   }
 
 
-  double
-  swept_angle(const ElementEdge &edge)
-  {
-    if (!edge.is_arc())
-      return 0.;
-    const Tensor<1, 2> chord  = edge.end - edge.start;
-    const double       length = chord.norm();
-    if (length == 0.)
-      return 0.;
-    // Middle of the chord minus the centre; differences are taken first to avoid cancellation.
-    const Tensor<1, 2> middle =
-      0.5 * ((edge.start - edge.center) + (edge.end - edge.center));
-    // For a chord of a few ulp, rounding determines its direction. Its distance from the centre is
-    // therefore that of its middle.
-    const double half = std::atan2(0.5 * length, middle.norm());
-    return std::copysign(2. * half, edge.radius);
-  }
-
-
   bool
   is_in_solid(const PhysicalMesh &physical_mesh, const Point<2> &x)
   {

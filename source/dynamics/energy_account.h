@@ -1,7 +1,7 @@
 #ifndef nmm_source_dynamics_energy_account_h
 #define nmm_source_dynamics_energy_account_h
 
-#include <nmm/dynamics/time_integrator.h>
+#include <nmm/dynamics/dynamic_state.h>
 
 #include <dynamics/scheme_step.h>
 

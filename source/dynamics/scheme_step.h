@@ -1,7 +1,8 @@
 #ifndef nmm_source_dynamics_scheme_step_h
 #define nmm_source_dynamics_scheme_step_h
 
-#include <nmm/dynamics/time_integrator.h>
+#include <nmm/dynamics/dynamic_state.h>
+#include <nmm/dynamics/time_scheme.h>
 
 #include <linear_algebra/chosen_items.h>
 

@@ -1,7 +1,7 @@
 #ifndef nmm_source_dynamics_sleeping_blocks_h
 #define nmm_source_dynamics_sleeping_blocks_h
 
-#include <nmm/dynamics/time_integrator.h>
+#include <nmm/dynamics/dynamic_state.h>
 #include <nmm/mechanics/mechanical_model.h>
 
 #include <array>

@@ -1,6 +1,6 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/dynamics/strength_reduction.h>
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 
 #include <algorithm>
 #include <cmath>

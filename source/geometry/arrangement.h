@@ -7,22 +7,18 @@
 #include <nmm/base/types.h>
 #include <nmm/geometry/curve.h>
 
-#include <CGAL/Arr_circle_segment_traits_2.h>
 #include <CGAL/Arr_consolidated_curve_data_traits_2.h>
 #include <CGAL/Arr_extended_dcel.h>
 #include <CGAL/Arrangement_2.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
 #include "geometry/face_measures.h"
+#include "geometry/kernel.h"
 #include <vector>
 
 namespace NMM
 {
   namespace internal
   {
-    using Kernel     = CGAL::Exact_predicates_exact_constructions_kernel;
-    using BaseTraits = CGAL::Arr_circle_segment_traits_2<Kernel>;
-
     /**
      * Label of a curve; an arrangement edge has the set of the labels of all curves that overlap
      * there. A label below mesh_edge_flag is a piece of the physical mesh (PhysicalMesh::pieces());
@@ -54,27 +50,9 @@ namespace NMM
       std::vector<DirectedEdge> solid_edges;
     };
 
-    /// The point of the same coordinates: doubles are rationals.
-    inline Kernel::Point_2
-    exact(const dealii::Point<2> &point)
-    {
-      return {point[0], point[1]};
-    }
-
     /// The exact curve of a piece; its doubles are exact rationals.
     BaseTraits::Curve_2
     exact_curve(const CurvePiece &piece);
-
-    /**
-     * Convert an exact coordinate (a + b sqrt(c)) to the nearest double or a neighbour of it. The
-     * relative error is at most 8 epsilon, however close two curves are. CGAL's default error of
-     * 1e-5 for lazy numbers would move the corners of slivers.
-     */
-    double
-    to_double(const BaseTraits::Point_2::CoordNT &coordinate);
-
-    dealii::Point<2>
-    to_double(const BaseTraits::Point_2 &point);
   } // namespace internal
 } // namespace NMM
 

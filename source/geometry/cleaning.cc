@@ -1,7 +1,7 @@
 #include <nmm/base/types.h>
 #include <nmm/geometry/geometry.h>
 
-#include "geometry/messages.h"
+#include "geometry/curve.h"
 #include "geometry/piece_geometry.h"
 #include <algorithm>
 #include <boost/geometry.hpp>

@@ -1,7 +1,7 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/geometry/crack_extension.h>
 
-#include "geometry/messages.h"
+#include "geometry/curve.h"
 #include "geometry/piece_geometry.h"
 #include <limits>
 

@@ -1,8 +1,9 @@
+#include "geometry/curve.h"
+
 #include <nmm/base/exceptions.h>
 #include <nmm/geometry/curve.h>
 
-#include "geometry/arrangement.h"
-#include "geometry/messages.h"
+#include "geometry/kernel.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>

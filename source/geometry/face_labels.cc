@@ -1,6 +1,6 @@
 #include "geometry/face_labels.h"
 
-#include "geometry/messages.h"
+#include "geometry/curve.h"
 #include <algorithm>
 #include <deque>
 #include <iterator>

@@ -1,8 +1,8 @@
 #include <nmm/base/input_file.h>
 #include <nmm/geometry/geometry.h>
 
+#include "geometry/curve.h"
 #include "geometry/geometry_scanner.h"
-#include "geometry/messages.h"
 #include <algorithm>
 #include <cctype>
 #include <map>

@@ -1,6 +1,6 @@
 #include "geometry/loops.h"
 
-#include "geometry/messages.h"
+#include "geometry/curve.h"
 #include <algorithm>
 #include <array>
 #include <limits>

@@ -1,6 +1,6 @@
 #include "geometry/overlaps.h"
 
-#include "geometry/messages.h"
+#include "geometry/curve.h"
 #include "geometry/piece_geometry.h"
 #include <algorithm>
 #include <array>

@@ -4,9 +4,9 @@
 
 #include "geometry/arrangement.h"
 #include "geometry/cgal_compat.h"
+#include "geometry/curve.h"
 #include "geometry/face_labels.h"
 #include "geometry/loops.h"
-#include "geometry/messages.h"
 #include "geometry/outline.h"
 #include "geometry/overlaps.h"
 #include "geometry/small_blocks.h"

@@ -1,7 +1,7 @@
 #include "geometry/piece_geometry.h"
 
 #include "geometry/arrangement.h"
-#include "geometry/messages.h"
+#include "geometry/curve.h"
 #include <algorithm>
 #include <base/cross.h>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "geometry/small_blocks.h"
 
-#include "geometry/messages.h"
+#include "geometry/curve.h"
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -56,11 +56,11 @@ namespace NMM
     } // namespace
 
 
-    SmallBlocks::SmallBlocks(const LabelledFaces              &faces,
-                             const std::vector<Curve>         &curves,
-                             std::vector<PhysicalMesh::Region> all_regions,
-                             const double                      limit,
-                             const bool                        merges_slivers)
+    SmallBlocks::SmallBlocks(const LabelledFaces        &faces,
+                             const std::vector<Curve>   &curves,
+                             std::vector<PhysicalRegion> all_regions,
+                             const double                limit,
+                             const bool                  merges_slivers)
       : faces(faces)
       , curves(curves)
       , regions(std::move(all_regions))
@@ -303,7 +303,7 @@ namespace NMM
 
 
     void
-    SmallBlocks::find_new_tips(PhysicalMesh::DanglingEnds &ends) const
+    SmallBlocks::find_new_tips(DanglingEnds &ends) const
     {
       std::map<const void *, unsigned int> n_removed;
       for (unsigned int e = 0; e < edge_vanishes.size(); ++e)
@@ -337,7 +337,7 @@ namespace NMM
 
     void
     SmallBlocks::remove_joints(const std::vector<unsigned int> &piece_to_curve,
-                               PhysicalMesh::DanglingEnds      &ends,
+                               DanglingEnds                    &ends,
                                Arrangement &arrangement) const
     {
       find_new_tips(ends);

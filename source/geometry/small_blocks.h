@@ -1,7 +1,8 @@
 #ifndef nmm_source_geometry_small_blocks_h
 #define nmm_source_geometry_small_blocks_h
 
-#include <nmm/geometry/physical_mesh.h>
+#include <nmm/geometry/geometry.h>
+#include <nmm/geometry/physical_region.h>
 
 #include "geometry/arrangement.h"
 #include "geometry/face_labels.h"
@@ -34,11 +35,11 @@ namespace NMM
     {
     public:
       /// Regions of FaceData::region, and their blocks and materials, are @p regions.
-      SmallBlocks(const LabelledFaces              &faces,
-                  const std::vector<Curve>         &curves,
-                  std::vector<PhysicalMesh::Region> regions,
-                  double                            limit,
-                  bool                              merges_slivers);
+      SmallBlocks(const LabelledFaces        &faces,
+                  const std::vector<Curve>   &curves,
+                  std::vector<PhysicalRegion> regions,
+                  double                      limit,
+                  bool                        merges_slivers);
 
       /// The region that a region has become a part of, mostly itself.
       unsigned int
@@ -65,7 +66,7 @@ namespace NMM
       /// added to @p ends. Handles of the faces stay valid until edges are merged.
       void
       remove_joints(const std::vector<unsigned int> &piece_to_curve,
-                    PhysicalMesh::DanglingEnds      &ends,
+                    DanglingEnds                    &ends,
                     Arrangement                     &arrangement) const;
 
     private:
@@ -97,14 +98,14 @@ namespace NMM
       std::pair<unsigned int, unsigned int>
       sides(const JointEdge &joint, unsigned int block) const;
       void
-      find_new_tips(PhysicalMesh::DanglingEnds &ends) const;
+      find_new_tips(DanglingEnds &ends) const;
 
       const LabelledFaces      &faces;
       const std::vector<Curve> &curves;
       /// The regions before blocks were merged.
-      const std::vector<PhysicalMesh::Region> regions;
-      const double                            limit;
-      const bool                              merges_slivers;
+      const std::vector<PhysicalRegion> regions;
+      const double                      limit;
+      const bool                        merges_slivers;
 
       /// By region, and by block: the one that it has become a part of.
       mutable std::vector<unsigned int> region_parent, block_parent;

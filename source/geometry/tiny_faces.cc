@@ -1,6 +1,6 @@
 #include "geometry/tiny_faces.h"
 
-#include "geometry/messages.h"
+#include "geometry/curve.h"
 #include "geometry/trimming.h"
 #include <algorithm>
 #include <array>

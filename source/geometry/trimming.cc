@@ -1,7 +1,7 @@
 #include "geometry/trimming.h"
 
+#include "geometry/curve.h"
 #include "geometry/loops.h"
-#include "geometry/messages.h"
 #include <algorithm>
 #include <iterator>
 #include <set>
@@ -159,12 +159,12 @@ namespace NMM
     }
 
 
-    PhysicalMesh::DanglingEnds
+    DanglingEnds
     drop_ends(const std::vector<Curve> &curves,
               const LabelledFaces      &faces,
               Arrangement              &arrangement)
     {
-      PhysicalMesh::DanglingEnds                result;
+      DanglingEnds                              result;
       std::vector<Arrangement::Halfedge_handle> gone;
       for (const LabelledFaces::Edge &edge : faces.edges())
       {

@@ -1,7 +1,8 @@
 #ifndef nmm_source_geometry_trimming_h
 #define nmm_source_geometry_trimming_h
 
-#include <nmm/geometry/physical_mesh.h>
+#include <nmm/geometry/geometry.h>
+#include <nmm/geometry/physical_region.h>
 
 #include "geometry/arrangement.h"
 #include "geometry/face_labels.h"
@@ -34,7 +35,7 @@ namespace NMM
      * set. The number of faces does not change, because the same face is on both sides. @p faces
      * are those of the arrangement before; they are invalid if anything was removed.
      */
-    PhysicalMesh::DanglingEnds
+    DanglingEnds
     drop_ends(const std::vector<Curve> &curves,
               const LabelledFaces      &faces,
               Arrangement              &arrangement);

@@ -1,7 +1,5 @@
 #include <nmm/base/exceptions.h>
-#include <nmm/materials/hyperelastic_law.h>
 #include <nmm/materials/material.h>
-#include <nmm/materials/material_law.h>
 
 #include <algorithm>
 #include <cmath>

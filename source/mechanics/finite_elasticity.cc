@@ -3,7 +3,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <mechanics/finite_elasticity_data.h>
+#include <mechanics/finite_elasticity.h>
 #include <mechanics/nodal_values.h>
 
 namespace NMM

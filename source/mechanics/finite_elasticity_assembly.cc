@@ -6,7 +6,7 @@
 #include <atomic>
 #include <base/in_order.h>
 #include <cmath>
-#include <mechanics/finite_elasticity_data.h>
+#include <mechanics/finite_elasticity.h>
 #include <mechanics/floating_blocks.h>
 #include <mechanics/nodal_values.h>
 #include <mechanics/trace_constant.h>

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mechanics/finite_elasticity_data.h>
+#include <mechanics/finite_elasticity.h>
 #include <mechanics/nodal_values.h>
 #include <mechanics/rotated_frame.h>
 #include <sstream>

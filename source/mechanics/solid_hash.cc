@@ -1,4 +1,4 @@
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 
 #include <algorithm>
 #include <mechanics/solid_hash.h>

@@ -1,3 +1,5 @@
+#include <nmm/quadrature/element_rule_builder.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,8 @@
 #ifndef nmm_source_output_picture_canvas_h
 #define nmm_source_output_picture_canvas_h
 
-#include <nmm/output/picture.h>
+#include <nmm/output/picture_data.h>
+#include <nmm/output/picture_scale.h>
 
 #include <cstdint>
 #include <utility>

@@ -1,5 +1,5 @@
 #include <nmm/covers/point_location.h>
-#include <nmm/output/picture.h>
+#include <nmm/output/picture_data.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <map>
 #include <output/picture_labels.h>
-#include <sstream>
 
 namespace NMM
 {
@@ -36,15 +34,6 @@ namespace NMM
                       : x,
                     y);
       cairo_show_text(cr, text.c_str());
-    }
-
-
-    std::string
-    number_text(const double value, const unsigned int n_digits)
-    {
-      std::ostringstream text;
-      text << std::setprecision(n_digits) << value;
-      return text.str();
     }
 
 

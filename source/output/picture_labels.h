@@ -3,6 +3,7 @@
 
 #include <cairo.h>
 #include <output/picture_canvas.h>
+#include <output/picture_scale.h>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,6 @@ namespace NMM
               double             x,
               double             y,
               const TextStyle   &style);
-
-    std::string
-    number_text(double value, unsigned int n_digits = 4);
 
     /// Draws a bar of a round length in the undeformed solid, at the right end below the plot.
     void

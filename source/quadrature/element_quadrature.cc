@@ -1,29 +1,13 @@
 #include <nmm/covers/point_location.h>
 #include <nmm/quadrature/element_quadrature.h>
-#include <nmm/quadrature/element_rule_builder.h>
 
 #include "element_frame.h"
 #include "moments.h"
 #include "slab_candidates.h"
 #include <cmath>
-#include <map>
 
 namespace NMM
 {
-  dealii::Quadrature<2>
-  make_element_rule(const dealii::ArrayView<const ElementEdge> edges,
-                    const CellFrame                           &frame,
-                    const unsigned int                         degree)
-  {
-    // Tables and scratch memory are kept for later calls.
-    thread_local std::map<unsigned int, ElementRuleBuilder> builders;
-    auto it = builders.find(degree);
-    if (it == builders.end())
-      it = builders.emplace(degree, ElementRuleBuilder(degree)).first;
-    return it->second.build(edges, frame);
-  }
-
-
   CellFrame
   cell_frame(const ManifoldMesh &mesh, const unsigned int element)
   {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 
 namespace NMM
@@ -212,5 +213,19 @@ namespace NMM
 
     d.fallback = d.best_points.empty() || d.best_error > tolerable;
     return d.result();
+  }
+
+
+  dealii::Quadrature<2>
+  make_element_rule(const dealii::ArrayView<const ElementEdge> edges,
+                    const CellFrame                           &frame,
+                    const unsigned int                         degree)
+  {
+    // Tables and scratch memory are kept for later calls.
+    thread_local std::map<unsigned int, ElementRuleBuilder> builders;
+    auto it = builders.find(degree);
+    if (it == builders.end())
+      it = builders.emplace(degree, ElementRuleBuilder(degree)).first;
+    return it->second.build(edges, frame);
   }
 } // namespace NMM

@@ -25,19 +25,6 @@ namespace NMM
     }
 
 
-    bool
-    can_start_cracks(const FractureParameters    &fracture,
-                     const std::vector<Material> &materials)
-    {
-      return fracture.n_increments > 0 &&
-             std::any_of(materials.begin(),
-                         materials.end(),
-                         [](const Material &material) {
-                           return material.fracture_strength > 0.;
-                         });
-    }
-
-
     void
     check_increments(const std::vector<Increment> &increments)
     {

@@ -80,12 +80,6 @@ namespace NMM
     const GrowthCriterion &
     growth_criterion(const FractureParameters &parameters);
 
-    /// Whether new cracks can start where @p fracture lets cracks grow: if a material has a fracture
-    /// strength.
-    bool
-    can_start_cracks(const FractureParameters    &fracture,
-                     const std::vector<Material> &materials);
-
     /// The tips of @p tips that can grow, since they do not lie on an interface, with what the scene's
     /// criterion says of their factors, which were computed.
     std::vector<GrowingTip>

@@ -96,8 +96,8 @@ namespace NMM
                   InputError("cracks with contact grow on one rank only",
                              "parameter 'Fracture/Increments'",
                              "run the scene on one rank"));
-      AssertThrow(!can_start_cracks(scene.parameters().fracture,
-                                    problem.materials) ||
+      AssertThrow(!scene.parameters().fracture.can_start_cracks(
+                    problem.materials) ||
                     !is_parallel,
                   InputError("cracks start on one rank only",
                              "parameter 'Materials/.../Fracture strength'",
@@ -297,7 +297,7 @@ namespace NMM
       const FractureParameters &parameters = scene.parameters().fracture;
       growing_tips =
         judge_tips(*crack_tips, parameters, problem, *physical_mesh);
-      if (can_start_cracks(parameters, problem.materials))
+      if (parameters.can_start_cracks(problem.materials))
         add_new_tips(growing_tips,
                      *crack_tips,
                      increments,

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <scene/crack_growth.h>
+#include <scene/crack_tips.h>
 #include <scene/parsing.h>
 #include <sstream>
 #include <utility>
@@ -166,7 +166,7 @@ namespace NMM
         });
       AssertThrow(
         is_any_of_use ||
-          can_start_cracks(fracture, scene.parameters().materials),
+          fracture.can_start_cracks(scene.parameters().materials),
         InputError(reason_at_rest.empty()
                      ? "there is no crack tip that could have intensity "
                        "factors"
@@ -351,13 +351,6 @@ namespace NMM
           out << '\n';
         }
       });
-    }
-
-
-    double
-    smallest_at_tips(const FractureParameters &parameters, const bool in_motion)
-    {
-      return in_motion && parameters.n_increments > 0 ? 1e-3 : 1e-6;
     }
   } // namespace internal
 } // namespace NMM

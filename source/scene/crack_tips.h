@@ -103,14 +103,6 @@ namespace NMM
       std::string
       intensity_unit() const;
     };
-
-
-    /// The size of cells at tips in a mesh that is graded towards them, over the tip's free radius
-    /// [-]: 1e-6, and 1e-3 where cracks grow @p in_motion. There all tips that a crack has had keep
-    /// their cells, and faces that touch should not be divided into edges that are shorter than
-    /// needed. Intensity factors are then too small by about 5e-4.
-    double
-    smallest_at_tips(const FractureParameters &parameters, bool in_motion);
   } // namespace internal
 } // namespace NMM
 

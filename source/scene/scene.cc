@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <scene/crack_tips.h>
 #include <scene/expression.h>
 #include <scene/parsing.h>
 #include <sstream>
@@ -357,11 +356,11 @@ namespace NMM
                                   sizes.end());
       };
       const FractureParameters &fracture = scene_parameters.fracture;
-      add(sizes_at_tips(
-        physical_mesh,
-        fracture.grading,
-        internal::smallest_at_tips(
-          fracture, scene_parameters.model.analysis == Analysis::dynamics)));
+      add(sizes_at_tips(physical_mesh,
+                        fracture.grading,
+                        fracture.smallest_at_tips(
+                          scene_parameters.model.analysis ==
+                          Analysis::dynamics)));
       // Displacements are carried over to the next mesh where cracks grow in motion. Its cells must
       // not be larger, while those at corners grow with the crack.
       if (fracture.n_increments == 0 ||

@@ -1,5 +1,6 @@
 #include <nmm/base/exceptions.h>
-#include <nmm/scene/scene_parameters.h>
+#include <nmm/scene/scene_parameters_contact.h>
+#include <nmm/scene/scene_parameters_dynamics.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/geometry/physical_mesh.h>
-#include <nmm/scene/scene_parameters.h>
+#include <nmm/scene/scene_parameters_dynamics.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 #include <nmm/fracture/growth_criterion.h>
 #include <nmm/scene/scene_parameters_fracture.h>
 
+#include <algorithm>
 #include <cmath>
 #include <scene/parsing.h>
 
@@ -137,5 +138,25 @@ namespace NMM
                            "factors",
                            section,
                            "remove it, or set 'Intensity factors = true'"));
+  }
+
+
+  bool
+  FractureParameters::can_start_cracks(
+    const std::vector<Material> &materials) const
+  {
+    return n_increments > 0 &&
+           std::any_of(materials.begin(),
+                       materials.end(),
+                       [](const Material &material) {
+                         return material.fracture_strength > 0.;
+                       });
+  }
+
+
+  double
+  FractureParameters::smallest_at_tips(const bool in_motion) const
+  {
+    return in_motion && n_increments > 0 ? 1e-3 : 1e-6;
   }
 } // namespace NMM

@@ -1,5 +1,5 @@
 #include <nmm/base/exceptions.h>
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 #include <nmm/scene/scene_parameters.h>
 
 #include <cmath>

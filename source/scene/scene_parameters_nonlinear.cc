@@ -1,6 +1,6 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/contact/law/coulomb_law.h>
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 #include <nmm/scene/scene_parameters.h>
 
 #include <algorithm>

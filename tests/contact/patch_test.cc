@@ -1,7 +1,7 @@
 // Contact patch test: blocks with unrelated meshes under uniform stress. What is
 // uniform must stay so across straight and inclined interfaces.
 
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 
 #include <contact/contact_model.h>
 #include <support/coulomb.h>

@@ -2,7 +2,7 @@
 
 #include <nmm/base/program.h>
 #include <nmm/dynamics/checkpoint.h>
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 
 #include <csignal>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // The energy-momentum conserving scheme on free bodies.
 
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 
 #include <dynamics/dynamic_model.h>
 #include <gtest/gtest.h>

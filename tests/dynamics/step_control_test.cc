@@ -2,7 +2,7 @@
 
 #include <nmm/base/program.h>
 #include <nmm/dynamics/relaxation.h>
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 
 #include <dynamics/dynamic_model.h>

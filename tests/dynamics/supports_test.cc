@@ -1,6 +1,6 @@
 // The conserving scheme with supports and bonded joints.
 
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 
 #include <dynamics/dynamic_model.h>
 #include <gtest/gtest.h>

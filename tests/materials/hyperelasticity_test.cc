@@ -1,7 +1,7 @@
 // The laws: derivatives against differences, limits, frame indifference.
 
 #include <nmm/materials/hyperelastic_law.h>
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 
 #include <gtest/gtest.h>
 #include <mechanics/model.h>

@@ -1,7 +1,7 @@
 // Solutions in finite kinematics: exact states, limits, the
 // cantilever of step-nmm-2, failures.
 
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 
 #include <deal.II/base/mpi.h>
 

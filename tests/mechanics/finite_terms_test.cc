@@ -1,7 +1,7 @@
 // Forces and tangents of FiniteElasticity: derivatives against differences, term
 // by term, and what rigid motion must not do.
 
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 
 #include <gtest/gtest.h>
 #include <mechanics/conserving_terms.h>

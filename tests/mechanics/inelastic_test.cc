@@ -1,6 +1,6 @@
 // Mohr-Coulomb materials in the static equations of small displacements.
 
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 #include <nmm/materials/mohr_coulomb_law.h>
 #include <nmm/mechanics/inelastic_terms.h>
 #include <nmm/mechanics/static_elasticity.h>

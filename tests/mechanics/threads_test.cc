@@ -1,6 +1,6 @@
 // The same bits on any number of threads.
 
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 
 #include <deal.II/base/multithread_info.h>
 

@@ -8,7 +8,7 @@
 
 #include <nmm/base/exceptions.h>
 #include <nmm/materials/hyperelastic_law.h>
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 #include <nmm/quadrature/element_rule_builder.h>
 
 #include <contact/assembly/point_terms.h>

@@ -2,6 +2,7 @@
 // ties them to the rules of elements.
 
 #include <nmm/quadrature/element_quadrature.h>
+#include <nmm/quadrature/element_rule_builder.h>
 
 #include "random_elements.h"
 #include "support/n_samples.h"

@@ -1,6 +1,6 @@
 // The paper's step-by-step scheme, which step-nmm-2 compares with Newton's method.
 
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 
 #include <gtest/gtest.h>
 #include <mechanics/finite_model.h>

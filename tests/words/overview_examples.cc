@@ -10,7 +10,7 @@
 #include <nmm/fracture/fracture.h>
 #include <nmm/geometry/crack_extension.h>
 #include <nmm/geometry/physical_mesh.h>
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 #include <nmm/mechanics/mass_matrix.h>
 #include <nmm/mechanics/solid_term.h>
 #include <nmm/mechanics/spring_term.h>
@@ -125,7 +125,7 @@ namespace
   materials(const Tensor<2, 2> &H)
   {
     // clang-format off
-    // Example of materials/material_law.h
+    // Example of materials/material.h
     Material material;
     material.name           = "steel";
     material.youngs_modulus = 2.1e11;
@@ -442,7 +442,7 @@ namespace
                                      "geometry/geometry.h",
                                      "covers/mathematical_mesh.h",
                                      "quadrature/element_quadrature.h",
-                                     "materials/material_law.h",
+                                     "materials/material.h",
                                      "linear_algebra/linear_algebra.h",
                                      "solution/newton_solver.h",
                                      "mechanics/elasticity_problem.h",

@@ -2,13 +2,12 @@
 #define nmm_contact_contact_h
 
 #include <nmm/base/step_fault.h>
-#include <nmm/contact/diagnostics/locked_corners.h>
-#include <nmm/contact/law/law.h>
+#include <nmm/contact/assembly/report.h>
+#include <nmm/contact/parameters.h>
 #include <nmm/contact/state/history.h>
-#include <nmm/contact/surface/integration.h>
+#include <nmm/contact/state/point.h>
 #include <nmm/contact/surface/surface.h>
 
-#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -21,165 +20,6 @@
 
 namespace NMM
 {
-  /// The contact law between two curves or obstacles, which may be the same one.
-  struct ContactPair
-  {
-    /// Name of a curve or obstacle on one side; empty stands for any.
-    std::string first;
-    /// Name of a curve or obstacle on the other side; empty stands for any.
-    std::string second;
-    /// Law of this pair; must not be null.
-    std::shared_ptr<const ContactLaw> law;
-  };
-
-
-  /// The initial stress at a face that touches another one in the reference configuration.
-  struct InitialFaceStress
-  {
-    /// The edge that it touches; invalid_index if there is none.
-    unsigned int mate = invalid_index;
-    /// Stress at both faces, tension positive [Pa].
-    dealii::SymmetricTensor<2, 2> stress;
-  };
-
-
-  /// Laws, integration and search of a Contact object. The constructor of Contact calls check().
-  struct ContactParameters
-  {
-    /// Law of all faces to which no pair applies.
-    std::shared_ptr<const ContactLaw> law;
-    /// Laws between certain faces; the first pair that fits is used.
-    std::vector<ContactPair> pairs;
-    /// Largest weighted penetration that the augmented Lagrangian method leaves [m], see Contact;
-    /// 0 selects the penalty method.
-    double penetration_tolerance = 0.;
-    /// Largest number of updates of the multipliers in a load step; a step that needs more fails.
-    unsigned int max_augmentations = 30;
-    /// Candidate pairs of faces are searched for within this distance [m]; 0 stands for a tenth
-    /// of the longest edge. No point may move further than this in a step.
-    double reach = 0.;
-    /// Number of Gauss-Lobatto points on each piece of an edge, from 2 to 20. Round faces are divided
-    /// into so short pieces that points are at most a hundredth of the relative radius of curvature
-    /// apart.
-    unsigned int n_points = 4;
-    /// Whether springs act per length of a face or at vertices only.
-    ContactIntegration integration = ContactIntegration::length;
-    /// Priority of each block as the slave: of two blocks the one with the lower number is the slave,
-    /// which carries the contact points. The softer or finer block is the better slave. If this is
-    /// empty, it is the number of the block.
-    std::vector<unsigned int> slave_priority;
-    /// Stress in the reference configuration at each edge of the surface, see
-    /// initial_stress_at_faces(). Springs bear its traction there. Empty: none.
-    std::vector<InitialFaceStress> initial_stress;
-    /// Corners of blocks that give way, see find_locked_corners(): the faces within corner_rounding of
-    /// them do not touch the face ahead.
-    std::vector<LockedCorner> rounded_corners;
-    /// Length of the faces at these corners that gives way [m].
-    double corner_rounding = 0.;
-
-    /// Check all values and laws. @throws InputError naming the value that is out of range.
-    void
-    check() const;
-
-    /// Whether any of the laws transmits shear.
-    bool
-    transmit_shear() const;
-
-    /// Whether any of the laws has friction.
-    bool
-    has_friction() const;
-  };
-
-
-  /// State of a contact point.
-  enum class ContactState
-  {
-    /// The faces are apart: there is neither pressure nor shear.
-    open,
-    /// The point is closed, and its shear is that of the elastic spring.
-    stick,
-    /// The point is closed, and its shear equals the strength. Closed points whose law transmits
-    /// no shear are counted here.
-    slip
-  };
-
-
-  /// A point at which a slave edge may touch a master.
-  struct ContactPoint
-  {
-    /// Number of the slave edge, an index for ContactSurface::edges().
-    unsigned int edge = invalid_index;
-    /// Parameter of the point on the slave edge, from 0 to 1 [-].
-    double s = 0.;
-    /// Integration weight: reference length times the cosine of the angle between both faces [m].
-    /// With ContactIntegration::points it is the share of the vertex [-].
-    double weight = 0.;
-    /// Number of the nearest master edge; invalid_index if there is none within reach.
-    unsigned int master = invalid_index;
-    /// Parameter of the nearest point on the master edge [-]; outside of [0, 1] where the edge is
-    /// continued beyond its ends.
-    double t = 0.;
-    /// Distance from the master along its normal, negative for penetration [m]; the reach of the
-    /// search if there is no master.
-    double gap = 0.;
-    /// Gap at which the pressure vanishes [m]: where dilation has opened the faces, and by how much
-    /// the initial stress has closed them before.
-    double opening = 0.;
-    /// Normal force per reference length of the slave, positive for compression [Pa].
-    double pressure = 0.;
-    /// Tangential force per reference length of the slave [Pa], positive if it pushes the
-    /// master in the direction of increasing t.
-    double shear = 0.;
-    /// State in the last assembly.
-    ContactState state = ContactState::open;
-    /// Shear that the spring would exert if its strength were not limited [Pa].
-    double spring_shear = 0.;
-    /// Whether the slip changed its sign in the last iteration; the secant stiffness is used then.
-    bool has_turned = false;
-    /// Edge of the anchor, the material point of the master at which the point sticks;
-    /// invalid_index as long as there is none.
-    unsigned int stick_edge = invalid_index;
-    /// Parameter of the anchor on its edge [-].
-    double stick_t = 0.;
-    /// Multiplier of the augmented Lagrangian [Pa].
-    double multiplier = 0.;
-    /// Whether the point belongs to a bonded joint whose strength has not been exceeded.
-    bool is_bonded = false;
-    /// Current position of the point [m].
-    dealii::Point<2> x;
-    /// Unit normal of the master at the nearest point, pointing out of the master's body [-].
-    dealii::Tensor<1, 2> normal;
-  };
-
-
-  /// Counts and sums of the last assembly, over all ranks.
-  struct ContactReport
-  {
-    /// Number of contact points.
-    unsigned int n_points = 0;
-    /// Number of points that are open.
-    unsigned int n_open = 0;
-    /// Number of points that stick.
-    unsigned int n_stick = 0;
-    /// Number of points that slip; all closed ones if there is no friction.
-    unsigned int n_slip = 0;
-    /// Number of states that differ from those of the previous assembly.
-    unsigned int n_changes = 0;
-    /// Number of points that stick because their bond holds.
-    unsigned int n_bonded = 0;
-    /// Largest penetration over all closed points, from the nearest face of the other body [m]. On
-    /// round faces it is that of the deepest place, which may lie between points.
-    double largest_penetration = 0.;
-    /// Whether the assembly was one of ContactTimeStep::assemble(), whose penetrations are those in
-    /// the mean position of the step, or one at the end of such a step.
-    bool is_between = false;
-    /// Energy that is stored in springs [J/m].
-    double energy = 0.;
-    /// Sum of the contact forces on the slaves [N/m].
-    dealii::Tensor<1, 2> force;
-  };
-
-
   /**
    * Contact forces and their tangent between the faces of a ContactSurface. What comes in are
    * displacements of the covers and the time; what goes out are residual(), tangent(), report()

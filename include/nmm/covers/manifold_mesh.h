@@ -50,6 +50,15 @@ namespace NMM
   };
 
   /**
+   * Angle that an arc of a manifold element sweeps, positive counter-clockwise
+   * [rad]; 0 for a straight edge. Such arcs span at most a half circle, so that half
+   * the angle is atan2(chord / 2, distance of the centre from the chord). This
+   * stays small for a chord of a few ulp, whose ends may have angles in either order.
+   */
+  double
+  swept_angle(const ElementEdge &edge);
+
+  /**
    * The edges of one element, one after the other. For most elements the mesh stores only corners
    * and neighbours; this object then owns the edges, which live as long as it does. Edges of other
    * elements live as long as the mesh. Used like an array.

@@ -36,15 +36,6 @@ namespace NMM
     return sweep < 0. ? sweep : sweep - 2. * dealii::numbers::PI;
   }
 
-  /**
-   * Angle that an arc of a manifold element sweeps, positive counter-clockwise
-   * [rad]; 0 for a straight edge. Such arcs span at most a half circle, so that half
-   * the angle is atan2(chord / 2, distance of the centre from the chord). This
-   * stays small for a chord of a few ulp, whose ends may have angles in either order.
-   */
-  double
-  swept_angle(const ElementEdge &edge);
-
   /// Angle swept by an arc or circle, signed [rad].
   double
   swept_angle(const CurvePiece &piece);

@@ -4,7 +4,7 @@
 #include <nmm/base/dual_number.h>
 #include <nmm/base/exceptions.h>
 #include <nmm/materials/hyperelastic_law.h>
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 
 #include <algorithm>
 #include <cmath>

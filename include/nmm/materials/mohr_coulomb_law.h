@@ -1,7 +1,7 @@
 #ifndef nmm_materials_mohr_coulomb_law_h
 #define nmm_materials_mohr_coulomb_law_h
 
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 
 namespace NMM
 {

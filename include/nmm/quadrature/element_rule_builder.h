@@ -78,6 +78,21 @@ namespace NMM
     struct Data;
     std::unique_ptr<Data> data;
   };
+
+
+  /**
+   * A quadrature rule on one manifold element E of the cell with @p frame.
+   * @f[ \int_E q\,dA = |\det J| \sum_k w_k\,q(x_k) \quad\forall q\in P_m @f]
+   * with m = @p degree, all w_k > 0, all x_k in E and at most dim P_m = (m+1)(m+2)/2 points.
+   * Points are in reference-cell coordinates [-]. Weights sum to the area of E
+   * over |det J| (twice the area of the cell) [-], as deal.II's FEValues expects.
+   * An element whose area rounds to zero gets a rule without points.
+   * @throws InputError if @p degree exceeds ElementRuleBuilder::max_degree.
+   */
+  dealii::Quadrature<2>
+  make_element_rule(dealii::ArrayView<const ElementEdge> edges,
+                    const CellFrame                     &frame,
+                    unsigned int                         degree);
 } // namespace NMM
 
 #endif

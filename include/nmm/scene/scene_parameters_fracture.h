@@ -1,7 +1,10 @@
 #ifndef nmm_scene_scene_parameters_fracture_h
 #define nmm_scene_scene_parameters_fracture_h
 
+#include <nmm/materials/material.h>
+
 #include <string>
+#include <vector>
 
 namespace NMM
 {
@@ -50,6 +53,17 @@ namespace NMM
     /// Whether the mesh is graded towards crack tips, or towards the circles of their covers.
     bool
     grades_mesh() const;
+
+    /// Whether new cracks can start: if cracks grow and one of @p materials has a fracture strength.
+    bool
+    can_start_cracks(const std::vector<Material> &materials) const;
+
+    /// The size of cells at tips in a mesh that is graded towards them, over the tip's free radius
+    /// [-]: 1e-6, and 1e-3 where cracks grow @p in_motion. There all tips that a crack has had keep
+    /// their cells, and faces that touch should not be divided into edges that are shorter than
+    /// needed. Intensity factors are then too small by about 5e-4.
+    double
+    smallest_at_tips(bool in_motion) const;
 
     /// Declares or reads the entries of the section.
     void

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <contact/data.h>
+#include <contact/contact.h>
 
 namespace NMM
 {

@@ -1,8 +1,11 @@
 #ifndef nmm_source_contact_assembly_matrix_h
 #define nmm_source_contact_assembly_matrix_h
 
-#include <nmm/contact/contact.h>
 #include <nmm/linear_algebra/body_matrix.h>
+
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
 
 #include <contact/assembly/chosen_bodies.h>
 #include <contact/assembly/point_terms.h>
@@ -34,8 +37,8 @@ namespace NMM
     class ContactMatrix
     {
     public:
-      using Vector = Contact::Vector;
-      using Matrix = Contact::Matrix;
+      using Vector = dealii::TrilinosWrappers::MPI::Vector;
+      using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 
       ContactMatrix(const ContactSurface                    &surface,
                     const dealii::AffineConstraints<double> &constraints,

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <contact/data.h>
+#include <contact/contact.h>
 #include <mechanics/nodal_values.h>
 #include <utility>
 

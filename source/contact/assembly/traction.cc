@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <contact/data.h>
+#include <contact/contact.h>
 #include <limits>
 
 namespace NMM

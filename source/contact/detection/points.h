@@ -1,7 +1,8 @@
 #ifndef nmm_source_contact_detection_points_h
 #define nmm_source_contact_detection_points_h
 
-#include <nmm/contact/contact.h>
+#include <nmm/contact/parameters.h>
+#include <nmm/contact/surface/surface.h>
 
 #include <algorithm>
 #include <array>

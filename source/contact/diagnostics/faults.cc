@@ -4,7 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <contact/data.h>
+#include <contact/contact.h>
 #include <sstream>
 
 namespace NMM

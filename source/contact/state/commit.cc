@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <contact/data.h>
+#include <contact/contact.h>
 
 namespace NMM
 {

@@ -1,7 +1,8 @@
 #ifndef nmm_source_contact_state_point_data_h
 #define nmm_source_contact_state_point_data_h
 
-#include <nmm/contact/contact.h>
+#include <nmm/contact/state/point.h>
+#include <nmm/contact/surface/surface.h>
 
 #include <contact/detection/points.h>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "step-nmm-2/cantilever.h"
 
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 
 #include "staged_model.h"
 #include "step-nmm-2/incremental_elasticity.h"

@@ -1,7 +1,8 @@
 #ifndef nmm_contact_surface_initial_stress_h
 #define nmm_contact_surface_initial_stress_h
 
-#include <nmm/contact/contact.h>
+#include <nmm/contact/parameters.h>
+#include <nmm/contact/surface/surface.h>
 #include <nmm/mechanics/elasticity_problem.h>
 
 #include <string>

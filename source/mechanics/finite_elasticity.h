@@ -1,5 +1,5 @@
-#ifndef nmm_source_mechanics_finite_elasticity_data_h
-#define nmm_source_mechanics_finite_elasticity_data_h
+#ifndef nmm_source_mechanics_finite_elasticity_h
+#define nmm_source_mechanics_finite_elasticity_h
 
 #include <nmm/mechanics/finite_elasticity.h>
 

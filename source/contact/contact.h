@@ -1,5 +1,5 @@
-#ifndef nmm_source_contact_data_h
-#define nmm_source_contact_data_h
+#ifndef nmm_source_contact_contact_h
+#define nmm_source_contact_contact_h
 
 #include <nmm/contact/contact.h>
 

@@ -1,5 +1,5 @@
-#ifndef nmm_source_geometry_messages_h
-#define nmm_source_geometry_messages_h
+#ifndef nmm_source_geometry_curve_h
+#define nmm_source_geometry_curve_h
 
 #include <nmm/base/exceptions.h>
 #include <nmm/geometry/curve.h>

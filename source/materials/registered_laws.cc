@@ -1,5 +1,4 @@
 #include <nmm/base/exceptions.h>
-#include <nmm/materials/material_law.h>
 #include <nmm/materials/mohr_coulomb_law.h>
 #include <nmm/materials/neo_hooke_law.h>
 #include <nmm/materials/st_venant_kirchhoff_law.h>

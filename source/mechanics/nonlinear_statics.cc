@@ -225,6 +225,19 @@ namespace NMM
   }
 
 
+  void
+  NonlinearStatics::begin_stage(const StageChange &change, const double end)
+  {
+    Data &d = *data;
+    d.system->begin_stage(change,
+                          d.states.back().solution,
+                          d.states.back().load_factor,
+                          end);
+    // what came before says nothing about the way on
+    d.states.erase(d.states.begin(), d.states.end() - 1);
+  }
+
+
   std::vector<LoadStep>
   NonlinearStatics::run(
     const LoadSteps                                             &steps,

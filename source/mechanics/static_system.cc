@@ -2,6 +2,7 @@
 #include <nmm/mechanics/static_system.h>
 
 #include <algorithm>
+#include <string>
 
 namespace NMM
 {
@@ -34,7 +35,7 @@ namespace NMM
                                  "the undeformed state",
                                  "give an initial stress that is within the "
                                  "material's strength"));
-    held_forces = inelastic.residual();
+    initial.forces = inelastic.residual();
   }
 
 
@@ -72,10 +73,12 @@ namespace NMM
     const Deformation state = model.assemble(trial);
     if (state != Deformation::admissible)
       return state;
-    const AssembledForces &forces = model.forces();
-    if (held_forces.size() > 0)
-      forces.residual->add(-std::max(0., 1. - std::max(factor, largest_factor)),
-                           held_forces);
+    const AssembledForces &forces  = model.forces();
+    const double           reached = std::max(factor, largest_factor);
+    if (initial.forces.size() > 0)
+      forces.residual->add(-initial.share(reached), initial.forces);
+    for (const Held &held : removed)
+      forces.residual->add(-held.share(reached), held.forces);
     result.residual        = forces.residual;
     result.force_scale     = forces.scale;
     result.force_rounding  = forces.rounding;
@@ -86,15 +89,87 @@ namespace NMM
   }
 
 
+  double
+  StaticSystem::Held::share(const double load_factor) const
+  {
+    const double s = std::clamp((load_factor - begin) / (end - begin), 0., 1.);
+    return at_begin + s * (at_end - at_begin);
+  }
+
+
+  StaticSystem::Vector
+  StaticSystem::assemble_residual(const Vector &u,
+                                  const double  load_factor,
+                                  const char   *where)
+  {
+    AssertThrow(model.assemble(Trial::at(u, load_factor)) ==
+                  Deformation::admissible,
+                NumericalFailure("Forces cannot be computed",
+                                 where,
+                                 "check initial stresses and the positions of "
+                                 "supports"));
+    return *model.forces().residual;
+  }
+
+
   void
   StaticSystem::hold_initial_forces(const Vector &u)
   {
-    AssertThrow(model.assemble(Trial::at(u, 0.)) == Deformation::admissible,
-                NumericalFailure("Forces cannot be computed",
-                                 "the undeformed state",
-                                 "check initial stresses and the positions of "
-                                 "supports"));
-    held_forces = *model.forces().residual;
+    initial.forces = assemble_residual(u, 0., "the undeformed state");
+  }
+
+
+  void
+  StaticSystem::begin_stage(const StageChange &change,
+                            const Vector      &u,
+                            const double       begin,
+                            const double       end)
+  {
+    const std::string where =
+      "the stage that begins at load factor " + std::to_string(begin);
+    double before = 0.;
+    for (const Held &held : removed)
+      before = std::max(before, 1. - held.share(begin));
+    AssertThrow(change.released >= before && change.released <= 1.,
+                InputError("the share of tractions that is released is " +
+                             std::to_string(change.released),
+                           where,
+                           "give a number from " + std::to_string(before) +
+                             ", which are released already, to 1"));
+    const unsigned int n_blocks = solid_term->layout().n_blocks;
+    is_removed.resize(n_blocks, false);
+    for (const unsigned int block : change.removed_blocks)
+    {
+      AssertThrow(block < n_blocks && !is_removed[block],
+                  InputError("block " + std::to_string(block) +
+                               (block < n_blocks ? " is gone already"
+                                                 : " does not exist"),
+                             where,
+                             "remove blocks that are there"));
+      is_removed[block] = true;
+    }
+    for (Held &held : removed)
+      held = {held.forces,
+              begin,
+              end,
+              held.share(begin),
+              std::min(held.share(begin), 1. - change.released)};
+    if (change.removed_blocks.empty())
+      return;
+    // In equilibrium the residual is what the removed blocks have exerted on the rest. What was held
+    // before is a part of that equilibrium.
+    model.set_absent_blocks(is_removed);
+    Held held{assemble_residual(u, begin, "the beginning of a stage"),
+              begin,
+              end,
+              1.,
+              1. - change.released};
+    if (initial.forces.size() > 0)
+      held.forces.add(-initial.share(std::max(begin, largest_factor)),
+                      initial.forces);
+    for (const Held &earlier : removed)
+      held.forces.add(-earlier.share(begin), earlier.forces);
+    removed.push_back(held);
   }
 
 
@@ -110,6 +185,9 @@ namespace NMM
   StaticSystem::begin_anew()
   {
     largest_factor = 0.;
+    removed.clear();
+    is_removed.clear();
+    model.set_absent_blocks({});
     model.forget();
   }
 } // namespace NMM

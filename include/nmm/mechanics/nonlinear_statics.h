@@ -92,6 +92,11 @@ namespace NMM
         const std::function<void(const LoadStep &, const Vector &)>
           &after_step = {});
 
+    /// Begin a stage at the last solution: run() takes the next steps with @p change, which is complete
+    /// at the load factor @p end. See StaticSystem::begin_stage() for errors.
+    void
+    begin_stage(const StageChange &change, double end);
+
     /// Displacements of the last converged step on locally relevant unknowns [m].
     const Vector &
     solution() const;

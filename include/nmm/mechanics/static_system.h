@@ -10,15 +10,34 @@
 namespace NMM
 {
   /**
+   * What changes at the beginning of a stage, between two static equilibria: blocks are removed, as
+   * by an excavation. The tractions that they exerted on the rest of the body do not vanish at once. A
+   * share `released` of them is taken away in proportion to the load factor until the end of the
+   * stage, and the rest is held until a later stage releases more: the load that the rock in front of
+   * the face, or a support that is not modelled, still bears (the convergence-confinement method).
+   */
+  struct StageChange
+  {
+    /// Blocks (ManifoldMesh::block()) that are removed for good.
+    std::vector<unsigned int> removed_blocks;
+    /// Share of the tractions of all blocks removed so far that is released at the end of the stage,
+    /// from 0 to 1 [-]. It does not decrease from stage to stage.
+    double released = 1.;
+  };
+
+
+  /**
    * The static equations of a solid and further force terms, such as contact or springs, in the form
    * that NewtonSolver solves. Their time is the load factor lambda.
    *
    * The forces r_0 by which an initial stress is out of balance without loads, such as at the wall of
    * an excavation, are released with the load factor, since friction and yielding depend on the
    * loading path:
-   * @f[ r(u) = \sum_\mathrm{terms} r_i(u) - \langle 1 - \lambda\rangle_+\,r_0. @f]
-   * So a state that is in balance with all loads stays at rest in all load steps. What has been
-   * released is not held back again. r_0 is that of inelastic materials; ContactStatics holds the sum
+   * @f[ r(u) = \sum_\mathrm{terms} r_i(u) - \langle 1 - \lambda\rangle_+\,r_0
+   *     - \sum_k h_k(\lambda)\,f_k. @f]
+   * So a state that is in balance with all loads stays at rest in all load steps. f_k are the forces
+   * out of balance when blocks were removed, and h_k is the share of them that is still held, see
+   * StageChange. What has been released is not held back again. r_0 is that of inelastic materials; ContactStatics holds the sum
    * of all terms, also the pretension of springs, if joints have an initial stress.
    *
    * Order of calls in a load step: begin_step(), assemble() as often as needed, commit() if the
@@ -70,6 +89,16 @@ namespace NMM
     StepWork
     commit(const Vector &u);
 
+    /// Begin a stage that takes the load factor from @p begin to @p end, at the equilibrium @p u of
+    /// the stage before.
+    /// @throws InputError for a block that does not exist or is gone already, and for a share that is
+    /// out of range or less than before. @throws NumericalFailure if forces cannot be assembled.
+    void
+    begin_stage(const StageChange &change,
+                const Vector      &u,
+                double             begin,
+                double             end);
+
     /// Begin again in the undeformed state: terms forget theirs (ForceTerm::forget()), and r_0 is held
     /// again.
     void
@@ -79,8 +108,26 @@ namespace NMM
     SolidTerm      *solid_term;
     MechanicalModel model;
     double          factor = 0., largest_factor = 0.;
-    /// r_0 [N/m]; empty if nothing is held.
-    Vector held_forces;
+    /// Forces that are held, and the share of them at the begin and the end of a stage, between which
+    /// it changes linearly.
+    struct Held
+    {
+      Vector forces;
+      double begin = 0., end = 1.;
+      double at_begin = 1., at_end = 0.;
+
+      double
+      share(double load_factor) const;
+    };
+
+    Vector
+    assemble_residual(const Vector &u, double load_factor, const char *where);
+
+    /// r_0 [N/m]; its forces are empty if nothing is held.
+    Held initial;
+    /// f_k [N/m].
+    std::vector<Held> removed;
+    std::vector<bool> is_removed;
   };
 } // namespace NMM
 

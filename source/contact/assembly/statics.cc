@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <contact/data.h>
+#include <contact/contact.h>
 #include <memory>
 
 namespace NMM
@@ -230,6 +230,15 @@ namespace NMM
       return others;
     }
 
+    /// The geometry of contact is linearized in small displacements, until the result is destroyed.
+    std::shared_ptr<void>
+    linearize_geometry()
+    {
+      contact->freeze_geometry(system.solid().kinematics() ==
+                               Kinematics::small);
+      return {nullptr, [this](void *) { contact->freeze_geometry(false); }};
+    }
+
     Contact           *contact;
     ContactTerm        touch;
     StaticSystem       system;
@@ -275,18 +284,22 @@ namespace NMM
   }
 
 
+  void
+  ContactStatics::begin_stage(const StageChange &change, const double end)
+  {
+    const std::shared_ptr<void> linear = data->linearize_geometry();
+    data->statics.begin_stage(change, end);
+  }
+
+
   std::vector<ContactStep>
   ContactStatics::run(
     const LoadSteps                                                &steps,
     const std::function<void(const ContactStep &, const Vector &)> &after_step)
   {
     steps.check();
-    Data &d = *data;
-    d.contact->freeze_geometry(d.system.solid().kinematics() ==
-                               Kinematics::small);
-    const std::shared_ptr<void> thaw(nullptr, [&d](void *) {
-      d.contact->freeze_geometry(false);
-    });
+    Data                       &d      = *data;
+    const std::shared_ptr<void> linear = d.linearize_geometry();
     if (d.statics.load_factor() == 0.)
     {
       // Rounding of arcs, as a fraction of the reach.

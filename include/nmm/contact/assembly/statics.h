@@ -75,6 +75,11 @@ namespace NMM
         const std::function<void(const ContactStep &, const Vector &)>
           &after_step = {});
 
+    /// Begin a stage at the last solution, see NonlinearStatics::begin_stage(). Contact between removed
+    /// blocks and others ends.
+    void
+    begin_stage(const StageChange &change, double end);
+
     /// Displacements after the last step that converged [m], locally relevant.
     const Vector &
     solution() const;

@@ -38,7 +38,11 @@ namespace NMM
         label_cells();
         spread_cells();
         number_elements();
-        match_sides();
+        if (!divided.empty())
+        {
+          match_corners();
+          match_sides();
+        }
       }
 
       void
@@ -51,6 +55,8 @@ namespace NMM
       spread_cells();
       void
       number_elements();
+      void
+      match_corners();
       void
       match_sides();
       void
@@ -458,11 +464,45 @@ namespace NMM
     }
 
 
+    /// Takes the vertices of divided cells at corners that these have in common with arranged
+    /// cells.
+    void
+    ArrangedCells::Implementation::match_corners()
+    {
+      if (!divided.has_vertices())
+        return;
+      for (auto v = arrangement.vertices_begin();
+           v != arrangement.vertices_end();
+           ++v)
+      {
+        // Mathematical edges meet at corners only.
+        unsigned int first = invalid_index;
+        auto         he    = v->incident_halfedges();
+        const auto   start = he;
+        do
+        {
+          const unsigned int e = mesh_edge(he);
+          if (e == invalid_index)
+            continue;
+          if (first == invalid_index)
+            first = e;
+          if (e == first)
+            continue;
+          const auto &a = mesh.edges()[first].vertices,
+                     &b = mesh.edges()[e].vertices;
+          const unsigned int corner =
+            a[0] == b[0] || a[0] == b[1] ? a[0] : a[1];
+          if (result.corner_to_vertex[corner] != invalid_index)
+            vertex_to_index[&*v] = result.corner_to_vertex[corner];
+          break;
+        } while (++he != start);
+      }
+    }
+
+
     void
     ArrangedCells::Implementation::match_sides()
     {
-      if (divided.empty())
-        return;
       std::unordered_map<unsigned int, std::vector<Halfedge>> side_to_pieces;
       for (auto edge = arrangement.edges_begin();
            edge != arrangement.edges_end();
@@ -517,7 +557,13 @@ namespace NMM
         const Halfedge in_divided = i == 0 ? along : Halfedge(along->twin());
         beyond_halfedge[&*in_divided] = divided.element(c, side, piece);
         elements[k] = in_divided->twin()->face()->data().element;
-        // Use the same coordinates on both sides.
+        // Use the same vertices or coordinates on both sides.
+        if (divided.has_vertices())
+        {
+          vertex_to_index[&*in_divided->source()] =
+            divided.vertex(c, side, piece);
+          continue;
+        }
         result.vertices[vertex(in_divided->source())] =
           divided.start(c, side, piece);
         if (piece + 1 == n)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <base/double_double.h>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace NMM
@@ -112,10 +113,9 @@ namespace NMM
         return Result::not_divided;
       number_boundary();
       order_chords();
-      if (!is_connected())
-        return Result::not_divided;
+      reach_nodes();
       trace_faces();
-      return Result::divided;
+      return has_simple_faces() ? Result::divided : Result::not_divided;
     }
 
 
@@ -343,7 +343,7 @@ namespace NMM
       {
         node_to_boundary[boundary[b]] = b;
         half_edge_list.push_back(
-          {nodes[boundary[b]].x, invalid_index, invalid_index});
+          {nodes[boundary[b]].x, invalid_index, invalid_index, boundary[b]});
       }
       for (const Chord &chord : along_sides)
       {
@@ -358,16 +358,7 @@ namespace NMM
       for (const Chord &chord : chords)
         for (const unsigned int n : chord.ends)
           half_edge_list.push_back(
-            {nodes[n].x, chord.physical_edge, invalid_index});
-    }
-
-
-    unsigned int
-    CellCutter::start_node(const unsigned int h) const
-    {
-      return h < boundary.size() ? boundary[h]
-                                 : chords[(h - boundary.size()) / 2]
-                                     .ends[(h - boundary.size()) % 2];
+            {nodes[n].x, chord.physical_edge, invalid_index, n});
     }
 
 
@@ -402,14 +393,14 @@ namespace NMM
       first_out.assign(nodes.size() + 1, 0);
       const unsigned int n_sides = boundary.size();
       for (unsigned int h = n_sides; h < half_edge_list.size(); ++h)
-        ++first_out[start_node(h) + 1];
+        ++first_out[half_edge_list[h].node + 1];
       for (unsigned int n = 0; n < nodes.size(); ++n)
         first_out[n + 1] += first_out[n];
       out.resize(half_edge_list.size() - n_sides);
       position_out.assign(nodes.size(), 0);
       for (unsigned int h = n_sides; h < half_edge_list.size(); ++h)
       {
-        const unsigned int n                  = start_node(h);
+        const unsigned int n                  = half_edge_list[h].node;
         out[first_out[n] + position_out[n]++] = h;
       }
       for (unsigned int n = 0; n < nodes.size(); ++n)
@@ -429,16 +420,16 @@ namespace NMM
     }
 
 
-    bool
-    CellCutter::is_connected()
+    void
+    CellCutter::reach_nodes()
     {
       is_reached.assign(nodes.size(), 0);
       for (const unsigned int n : boundary)
         is_reached[n] = 1;
-      bool grows = true, is_missing = false;
+      bool grows = true;
       while (grows)
       {
-        grows = is_missing = false;
+        grows = false;
         for (const Chord &chord : chords)
         {
           const auto [a, b] = chord.ends;
@@ -447,10 +438,8 @@ namespace NMM
             is_reached[a] = is_reached[b] = 1;
             grows                         = true;
           }
-          is_missing = is_missing || !is_reached[a];
         }
       }
-      return !is_missing;
     }
 
 
@@ -464,7 +453,7 @@ namespace NMM
         return first_out[n] < first_out[n + 1] ? out[first_out[n + 1] - 1] : b;
       }
       const unsigned int twin = n_sides + ((h - n_sides) ^ 1u);
-      const unsigned int n = start_node(twin), k = position_out[twin];
+      const unsigned int n = half_edge_list[twin].node, k = position_out[twin];
       if (k > first_out[n])
         return out[k - 1];
       return node_to_boundary[n] != invalid_index ? node_to_boundary[n]
@@ -526,6 +515,43 @@ namespace NMM
         face.end = loop_list.size();
         face_list.push_back(face);
       }
+    }
+
+
+    bool
+    CellCutter::has_simple_faces() const
+    {
+      for (const Face &face : face_list)
+      {
+        if (is_reached[half_edge_list[loop_list[face.begin]].node])
+          continue;
+        // A loop that is not connected to the boundary goes around its face, or around a hole of
+        // it. The sign of the area tells which, if it is larger than the rounding of the vertices
+        // and of the sum.
+        constexpr double   epsilon = std::numeric_limits<double>::epsilon();
+        const unsigned int n       = face.end - face.begin;
+        const Point<2>    &origin = half_edge_list[loop_list[face.begin]].start;
+        double             area = 0., size = 0., length = 0., largest = 0.;
+        for (unsigned int k = 0; k < n; ++k)
+        {
+          const Point<2> &x = half_edge_list[loop_list[face.begin + k]].start,
+                         &y =
+                           half_edge_list[loop_list[face.begin + (k + 1) % n]]
+                             .start;
+          const Tensor<1, 2> a = x - origin, b = y - origin;
+          area += a[0] * b[1] - a[1] * b[0];
+          size += std::abs(a[0] * b[1]) + std::abs(a[1] * b[0]);
+          length += size_of(b - a);
+          largest = std::max(largest, size_of(Tensor<1, 2>(x)));
+        }
+        const double rounding =
+          64. * epsilon * largest * length + (n + 8) * epsilon * size;
+        const bool is_outer = area > rounding,
+                   is_void  = area < -rounding && face.region == invalid_index;
+        if (!is_outer && !is_void)
+          return false;
+      }
+      return true;
     }
   } // namespace internal
 } // namespace NMM

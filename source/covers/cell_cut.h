@@ -30,8 +30,10 @@ namespace NMM
      * and back. Faces are the loops of half-edges in which each one is followed by the next one
      * clockwise about its end.
      *
-     * Arcs and chords that are not connected to the cell's boundary (cracks and blocks inside a
-     * cell) are not supported.
+     * Chords that are not connected to the cell's boundary are supported if they are outlines of
+     * blocks with no solid of the part around them. A loop of half-edges is then the whole boundary
+     * of a face in the solid, as it is for connected chords. Arcs, and cracks and holes inside of a
+     * cell are not supported.
      * Cost: O(n^2) in the number of edges near the cell, of which there are few.
      */
     class CellCutter
@@ -63,6 +65,8 @@ namespace NMM
         /// Physical edge on which the half-edge lies, or invalid_index.
         unsigned int physical_edge;
         unsigned int face;
+        /// Number of the start among the points of the cell: 0, 1 and 2 are its corners.
+        unsigned int node;
       };
 
       struct Face
@@ -131,8 +135,9 @@ namespace NMM
       void
       number_boundary();
 
-      bool
-      is_connected();
+      /// Find the nodes that are connected to the cell's boundary.
+      void
+      reach_nodes();
 
       /// Half-edges of chords that begin at each node, counter-clockwise.
       void
@@ -145,8 +150,9 @@ namespace NMM
       void
       trace_faces();
 
-      unsigned int
-      start_node(unsigned int half_edge) const;
+      /// Whether no face in the solid has more than one loop.
+      bool
+      has_simple_faces() const;
 
       unsigned int
       next(unsigned int half_edge) const;

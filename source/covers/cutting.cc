@@ -65,18 +65,20 @@ namespace NMM
         std::vector<unsigned char> &state,
         Cutting                    &cutting)
     {
-      const bool is_alone     = part.mesh->n_parts() == 1;
       const auto [first, end] = part.cells;
       for (unsigned int c = first; c < end; ++c)
         if (near[c - first].size() > 0)
           state[c] = CellState::arranged;
       const NearEdges none;
-      DividedCells    divided(part, is_alone ? near : none, state);
+      DividedCells    divided(part,
+                           part.cutter == Cutter::arrangement ? none : near,
+                           state,
+                           cutting);
       divided.number_elements(cutting);
       std::unique_ptr<ArrangedCells> arranged;
-      if (!is_alone || std::find(state.begin() + first,
-                                 state.begin() + end,
-                                 CellState::arranged) != state.begin() + end)
+      if (std::find(state.begin() + first,
+                    state.begin() + end,
+                    CellState::arranged) != state.begin() + end)
         arranged =
           std::make_unique<ArrangedCells>(part, state, divided, cutting);
       divided.label_beside(state, cutting.cell_region);

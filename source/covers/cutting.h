@@ -113,15 +113,18 @@ namespace NMM
       };
 
       std::vector<Element> elements;
-      /// Number of elements of divided cells, which come first. They have packed_edges, the others
-      /// edges.
+      /// Number of elements of divided cells, which come first, if the mesh has only one part. They
+      /// have packed_edges, the others edges.
       unsigned int             n_packed = 0;
       PackedEdges              packed_edges;
       std::vector<ElementEdge> edges;
-      /// Origins of the edges if the mesh has several parts, else empty.
+      /// Origins of the edges, for match_parts().
       std::vector<EdgeOrigin>       origins;
       std::vector<dealii::Point<2>> vertices;
-      std::vector<Link>             links;
+      /// Vertex at each vertex of a mathematical mesh of several parts that is a corner of a
+      /// divided cell, else invalid_index.
+      std::vector<unsigned int> corner_to_vertex;
+      std::vector<Link>         links;
       /// Region of each untouched cell; invalid_index outside the solid.
       std::vector<unsigned int> cell_region;
       /// For each physical edge, whether it is an edge of some element.
@@ -143,6 +146,7 @@ namespace NMM
       const PhysicalEdges    *physical_edges;
       /// Part of the mesh on which each region is; empty if there is only one.
       const std::vector<unsigned int> *region_to_part;
+      Cutter                           cutter;
 
       unsigned int part;
       /// Cells of the part, first and past-the-end.
@@ -154,10 +158,9 @@ namespace NMM
     /**
      * Cuts the cells of a part that physical edges are near to, and appends elements, their edges
      * and their links to @p cutting. Its members cell_region and is_met must have the sizes of the
-     * mesh and of the physical edges. Cells are divided separately where CellCutter can do so and
-     * if the mesh has only one part, because match_parts() needs the vertices of arrangements;
-     * other cells are arranged. @p state is set for each cell. @throws InputError where the part's
-     * regions extend beyond it.
+     * mesh and of the physical edges. Cells are divided separately where CellCutter can do so, and
+     * other cells are arranged; see PartToCut::cutter. @p state is set for each cell. @throws
+     * InputError where the part's regions extend beyond it.
      */
     void
     cut(const PartToCut            &part,

@@ -10,9 +10,24 @@ namespace NMM
   {
     using namespace dealii;
 
+    namespace
+    {
+      /// Side of a cell that is a mathematical edge.
+      unsigned int
+      side_of(const MathematicalMesh &mesh,
+              const unsigned int      cell,
+              const unsigned int      edge)
+      {
+        const auto &edges = mesh.cell_edges(cell);
+        return edges[0] == edge ? 0 : (edges[1] == edge ? 1 : 2);
+      }
+    } // namespace
+
+
     DividedCells::DividedCells(const PartToCut            &part,
                                const NearEdges            &near,
-                               std::vector<unsigned char> &state)
+                               std::vector<unsigned char> &state,
+                               Cutting                    &cutting)
       : mesh(*part.mesh)
       , physical_edges(*part.physical_edges)
       , part_cells(part.cells)
@@ -24,6 +39,8 @@ namespace NMM
       half_edges.reserve(7 * n_expected);
       loops.reserve(7 * n_expected);
       faces.reserve(2 * n_expected + 1);
+      if (has_vertices() && cutting.corner_to_vertex.empty())
+        cutting.corner_to_vertex.assign(mesh.vertices().size(), invalid_index);
       CellCutter cutter(mesh, physical_edges, *part.region_to_part, part.part);
       for (unsigned int i = 0; i + 1 < near.first.size(); ++i)
       {
@@ -39,6 +56,8 @@ namespace NMM
           case CellCutter::Result::divided:
             state[c] = CellState::divided;
             keep(c, cutter);
+            if (has_vertices())
+              number_vertices(cutter, cutting);
             break;
           case CellCutter::Result::not_divided:
             state[c] = CellState::arranged;
@@ -77,10 +96,67 @@ namespace NMM
     }
 
 
+    unsigned int
+    DividedCells::vertex_from_beyond(const unsigned int cell,
+                                     const unsigned int side,
+                                     const unsigned int piece) const
+    {
+      const unsigned int e     = mesh.cell_edges(cell)[side];
+      const auto        &both  = mesh.edges()[e].cells;
+      const unsigned int other = both[both[0] == cell ? 1 : 0];
+      if (other == invalid_index ||
+          cell_to_divided[other - part_cells.first] == invalid_index)
+        return invalid_index;
+      return vertex(other,
+                    side_of(mesh, other, e),
+                    n_pieces(cell, side) - piece);
+    }
+
+
+    void
+    DividedCells::number_vertices(const CellCutter &cutter, Cutting &cutting)
+    {
+      const Cell               &cell    = cells.back();
+      const auto               &corners = mesh.cell_vertices(cell.cell);
+      const unsigned int        n       = cutter.half_edges().size();
+      std::vector<unsigned int> node_to_vertex(n, invalid_index);
+      for (unsigned int h = 0, side = 0; h < n; ++h)
+      {
+        while (side < 3 && h >= cell.first_of_side[side + 1])
+          ++side;
+        const unsigned int node   = cutter.half_edges()[h].node;
+        unsigned int      &vertex = node_to_vertex[node];
+        if (vertex == invalid_index)
+        {
+          if (node < 3)
+            vertex = cutting.corner_to_vertex[corners[node]];
+          else if (side < 3)
+            vertex =
+              vertex_from_beyond(cell.cell, side, h - cell.first_of_side[side]);
+          if (vertex == invalid_index)
+          {
+            vertex = cutting.vertices.size();
+            cutting.vertices.push_back(cutter.half_edges()[h].start);
+          }
+          if (node < 3)
+            cutting.corner_to_vertex[corners[node]] = vertex;
+        }
+        half_edge_to_vertex.push_back(vertex);
+      }
+    }
+
+
     bool
     DividedCells::empty() const
     {
       return cells.size() == 1;
+    }
+
+
+    bool
+    DividedCells::has_vertices() const
+    {
+      return mesh.n_parts() > 1;
     }
 
 
@@ -125,6 +201,18 @@ namespace NMM
     }
 
 
+    unsigned int
+    DividedCells::vertex(const unsigned int cell,
+                         const unsigned int side,
+                         const unsigned int piece) const
+    {
+      AssertIndexRange(piece, n_pieces(cell, side));
+      const Cell &c = divided(cell);
+      return half_edge_to_vertex[c.first_half_edge + c.first_of_side[side] +
+                                 piece];
+    }
+
+
     void
     DividedCells::label_beside(const std::vector<unsigned char> &state,
                                std::vector<unsigned int> &cell_region) const
@@ -147,7 +235,7 @@ namespace NMM
     {
       if (empty())
         return;
-      Assert(cutting.elements.empty(), ExcInternalError());
+      Assert(has_vertices() || cutting.elements.empty(), ExcInternalError());
       std::size_t n_edges = 0;
       for (unsigned int i = 0; i + 1 < cells.size(); ++i)
         for (unsigned int f = cells[i].first_face; f < cells[i + 1].first_face;
@@ -159,6 +247,8 @@ namespace NMM
               {cells[i].cell, faces[f].region, false, 0, 0});
             n_edges += faces[f + 1].begin - faces[f].begin;
           }
+      if (has_vertices())
+        return;
       cutting.n_packed = cutting.elements.size();
       cutting.packed_edges.starts.reserve(n_edges);
       cutting.packed_edges.beyond.reserve(n_edges);
@@ -199,9 +289,7 @@ namespace NMM
                    ? invalid_index
                    : whole_cell_flag + other;
         case CellState::divided: {
-          const auto        &theirs = mesh.cell_edges(other);
-          const unsigned int there =
-            theirs[0] == e ? 0 : (theirs[1] == e ? 1 : 2);
+          const unsigned int there = side_of(mesh, other, e);
           Assert(n_pieces(other, there) == n, ExcInternalError());
           return element(other, there, n - 1 - piece);
         }
@@ -210,6 +298,39 @@ namespace NMM
           // left.
           return arranged->element(e, is_left ? piece : n - 1 - piece);
       }
+    }
+
+
+    std::size_t
+    DividedCells::n_edges(const Cutting &cutting) const
+    {
+      return has_vertices() ? cutting.edges.size()
+                            : cutting.packed_edges.starts.size();
+    }
+
+
+    void
+    DividedCells::append_edge(const unsigned int         h,
+                              const unsigned int         next,
+                              const PackedEdges::Beyond &beyond,
+                              Cutting                   &cutting) const
+    {
+      if (!has_vertices())
+      {
+        cutting.packed_edges.starts.push_back(half_edges[h].start);
+        cutting.packed_edges.beyond.push_back(beyond);
+        return;
+      }
+      cutting.edges.push_back({half_edges[h].start,
+                               half_edges[next].start,
+                               Point<2>(),
+                               0.,
+                               beyond.curve_set,
+                               beyond.neighbor,
+                               beyond.mesh_edge});
+      cutting.origins.push_back({half_edge_to_vertex[h],
+                                 half_edge_to_vertex[next],
+                                 half_edges[h].physical_edge});
     }
 
 
@@ -228,7 +349,7 @@ namespace NMM
           if (here == invalid_index)
             continue;
           Cutting::Element &element = cutting.elements[here];
-          element.first_edge        = cutting.packed_edges.starts.size();
+          element.first_edge        = n_edges(cutting);
           element.is_whole          = true;
           const unsigned int end    = faces[f + 1].begin;
           for (unsigned int k = faces[f].begin; k < end; ++k)
@@ -273,10 +394,12 @@ namespace NMM
                 cutting.links.push_back(
                   {edge.mesh_edge, {{here, edge.neighbor}}});
             }
-            cutting.packed_edges.starts.push_back(half_edge.start);
-            cutting.packed_edges.beyond.push_back(edge);
+            append_edge(loops[k],
+                        loops[k + 1 < end ? k + 1 : faces[f].begin],
+                        edge,
+                        cutting);
           }
-          element.end_edge = cutting.packed_edges.starts.size();
+          element.end_edge = n_edges(cutting);
         }
       }
     }

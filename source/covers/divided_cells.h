@@ -25,14 +25,21 @@ namespace NMM
       /**
        * Divides the cells of a part that have edges near them. @p state is set to
        * CellState::untouched if edges have only points in common with the cell, else to `divided`
-       * or `arranged`. Nothing is done if @p near is empty.
+       * or `arranged`. If the mesh has several parts, the vertices of the divided cells are appended
+       * to @p cutting. Nothing is done if @p near is empty.
        */
       DividedCells(const PartToCut            &part,
                    const NearEdges            &near,
-                   std::vector<unsigned char> &state);
+                   std::vector<unsigned char> &state,
+                   Cutting                    &cutting);
 
       bool
       empty() const;
+
+      /// Whether the mesh has several parts. Elements then have edges with origins for
+      /// match_parts(), else packed edges, which need less memory.
+      bool
+      has_vertices() const;
 
       /// Set the regions of untouched cells beside divided ones.
       void
@@ -54,6 +61,10 @@ namespace NMM
       /// Start of a piece.
       const dealii::Point<2> &
       start(unsigned int cell, unsigned int side, unsigned int piece) const;
+
+      /// Start of a piece as an index into Cutting::vertices, if has_vertices().
+      unsigned int
+      vertex(unsigned int cell, unsigned int side, unsigned int piece) const;
 
       /// Append the edges of the elements and their links, except links to arranged cells, which
       /// ArrangedCells appends. @throws InputError where the solid extends beyond the mesh.
@@ -88,6 +99,17 @@ namespace NMM
       void
       keep(unsigned int cell, const CellCutter &cutter);
 
+      /// Number the vertices of the last cell that was kept.
+      void
+      number_vertices(const CellCutter &cutter, Cutting &cutting);
+
+      /// Vertex at which a piece starts, from the other cell of the side; invalid_index if that has
+      /// not been divided.
+      unsigned int
+      vertex_from_beyond(unsigned int cell,
+                         unsigned int side,
+                         unsigned int piece) const;
+
       const Cell &
       divided(unsigned int cell) const;
 
@@ -100,13 +122,26 @@ namespace NMM
                      const ArrangedCells              *arranged,
                      const Cutting                    &cutting) const;
 
+      /// Number of the edges of elements so far.
+      std::size_t
+      n_edges(const Cutting &cutting) const;
+
+      /// Append an edge that starts as half-edge @p h does, and ends where half-edge @p next starts.
+      void
+      append_edge(unsigned int               h,
+                  unsigned int               next,
+                  const PackedEdges::Beyond &beyond,
+                  Cutting                   &cutting) const;
+
       const MathematicalMesh               &mesh;
       const PhysicalEdges                  &physical_edges;
       std::pair<unsigned int, unsigned int> part_cells;
       std::vector<unsigned int>             cell_to_divided;
       /// The cells, and one past the end.
-      std::vector<Cell>         cells;
-      std::vector<HalfEdge>     half_edges;
+      std::vector<Cell>     cells;
+      std::vector<HalfEdge> half_edges;
+      /// Start of each half-edge, an index into Cutting::vertices; empty if the mesh has one part.
+      std::vector<unsigned int> half_edge_to_vertex;
       std::vector<unsigned int> loops;
       /// The faces, and one past the end.
       std::vector<Face> faces;

@@ -43,7 +43,8 @@ namespace NMM
 
   ManifoldMesh::ManifoldMesh(const MathematicalMesh          &mathematical_mesh,
                              const PhysicalMesh              &physical_mesh,
-                             const std::vector<unsigned int> &region_to_part)
+                             const std::vector<unsigned int> &region_to_part,
+                             const Cutter                     cutter)
     : data(std::make_unique<Data>())
   {
     const unsigned int n_regions = physical_mesh.regions().size();
@@ -74,8 +75,12 @@ namespace NMM
     internal::Cutting cutting;
     cutting.is_met.assign(physical_edges.edges().size(), 0);
     cutting.cell_region.assign(mathematical_mesh.n_cells(), invalid_index);
-    for (const internal::PartToCut &part : internal::find_parts(
-           mathematical_mesh, physical_mesh, physical_edges, region_to_part))
+    for (const internal::PartToCut &part :
+         internal::find_parts(mathematical_mesh,
+                              physical_mesh,
+                              physical_edges,
+                              region_to_part,
+                              cutter))
     {
       const internal::NearEdges near = internal::find_near_edges(part, scale);
       for (unsigned int c = part.cells.first; c < part.cells.second; ++c)

@@ -156,6 +156,7 @@ namespace NMM
                                                       &physical_mesh,
                                                       &edges,
                                                       &region_to_part,
+                                                      Cutter::cell_by_cell,
                                                       0,
                                                       {0, mathematical_mesh.n_cells()},
                                                       {around.begin(), around.end()}};

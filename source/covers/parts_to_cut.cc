@@ -13,7 +13,8 @@ namespace NMM
     find_parts(const MathematicalMesh          &mesh,
                const PhysicalMesh              &physical_mesh,
                const PhysicalEdges             &physical_edges,
-               const std::vector<unsigned int> &region_to_part)
+               const std::vector<unsigned int> &region_to_part,
+               const Cutter                     cutter)
     {
       const auto part_of = [&](const unsigned int region) {
         return region_to_part.empty() ? 0u : region_to_part[region];
@@ -24,6 +25,7 @@ namespace NMM
                          &physical_mesh,
                          &physical_edges,
                          &region_to_part,
+                         cutter,
                          p,
                          mesh.part_cells(p),
                          {}});

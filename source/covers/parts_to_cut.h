@@ -16,7 +16,8 @@ namespace NMM
     find_parts(const MathematicalMesh          &mesh,
                const PhysicalMesh              &physical_mesh,
                const PhysicalEdges             &physical_edges,
-               const std::vector<unsigned int> &region_to_part);
+               const std::vector<unsigned int> &region_to_part,
+               Cutter                           cutter);
 
     /// Upper bound of the coordinates of a box [m].
     double

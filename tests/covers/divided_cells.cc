@@ -1,8 +1,9 @@
 // Cells near straight edges are divided by themselves: the same elements as by the exact
-// arrangement, which a second part of the mesh, far away, enforces.
+// arrangement.
 
 #include <nmm/base/exceptions.h>
 #include <nmm/covers/cover_system.h>
+#include <nmm/covers/own_meshes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,16 @@ using dealii::Tensor;
 
 namespace
 {
+  /// On meshes of several parts, points of both sides that differ by rounding are merged, and an edge
+  /// between points that are the same doubles is left out: rounding decides about edges that short.
+  bool
+  counts(const ManifoldMesh &mesh, const ElementEdge &edge)
+  {
+    return mesh.mathematical_mesh().n_parts() == 1 ||
+           edge.start.distance(edge.end) > 1e-13;
+  }
+
+
   /// Region, numbers of edges, of those on curves and of those with a neighbour, pieces that
   /// lie on its edges, number of joined elements, area.
   using Summary = std::tuple<unsigned int,
@@ -34,10 +45,13 @@ namespace
     std::vector<Summary> result;
     for (const unsigned int e : mesh.cell_elements(cell))
     {
-      unsigned int              n_on_curves = 0, n_neighbors = 0;
+      unsigned int              n_edges = 0, n_on_curves = 0, n_neighbors = 0;
       std::vector<unsigned int> pieces;
       for (const ElementEdge &edge : mesh.edges(e))
       {
+        if (!counts(mesh, edge))
+          continue;
+        ++n_edges;
         n_neighbors += edge.neighbor != invalid_index;
         if (edge.curve_set == invalid_index)
           continue;
@@ -47,7 +61,7 @@ namespace
       }
       std::sort(pieces.begin(), pieces.end());
       result.emplace_back(mesh.region(e),
-                          mesh.edges(e).size(),
+                          n_edges,
                           n_on_curves,
                           n_neighbors,
                           pieces,
@@ -64,6 +78,9 @@ namespace
   unsigned int
   expect_shared_ends(const ManifoldMesh &mesh)
   {
+    const auto part = [&](const unsigned int element) {
+      return mesh.mathematical_mesh().cell_part(mesh.cell(element));
+    };
     unsigned int n = 0;
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
     {
@@ -71,7 +88,7 @@ namespace
       for (unsigned int i = 0; i < edges.size(); ++i)
       {
         const ElementEdge &edge = edges[i];
-        if (edge.neighbor == invalid_index ||
+        if (edge.neighbor == invalid_index || !counts(mesh, edge) ||
             mesh.edges(edge.neighbor).size() == 0)
           continue;
         ++n;
@@ -82,7 +99,8 @@ namespace
                                   return other.neighbor == e &&
                                          other.start == edge.end &&
                                          other.end == edge.start &&
-                                         other.mesh_edge == edge.mesh_edge &&
+                                         (other.mesh_edge == edge.mesh_edge ||
+                                          part(edge.neighbor) != part(e)) &&
                                          other.curve_set == edge.curve_set;
                                 }))
           << "element " << e << ", edge " << i;
@@ -98,19 +116,16 @@ namespace
    * edges can be told from each other by their ends.
    */
   unsigned int
-  compare(const Geometry         &geometry,
-          const MathematicalMesh &cells,
-          const bool              has_distinct_points = true)
+  compare(const PhysicalMesh              &physical,
+          const MathematicalMesh          &cells,
+          const std::vector<unsigned int> &region_to_part,
+          const bool                       has_distinct_points = true)
   {
-    const PhysicalMesh physical(Geometry{geometry});
-    MeshPart           far;
-    far.vertices = {{100., 100.}, {101., 100.}, {100., 101.}};
-    far.cells    = {{{0, 1, 2}}};
-    const MathematicalMesh both =
-      combine_meshes({make_mesh_part(cells), far}, cells.degree());
-    const ManifoldMesh divided(cells, physical);
-    const ManifoldMesh arranged(
-      both, physical, std::vector<unsigned int>(physical.regions().size(), 0));
+    const ManifoldMesh divided(cells, physical, region_to_part);
+    const ManifoldMesh arranged(cells,
+                                physical,
+                                region_to_part,
+                                Cutter::arrangement);
 
     EXPECT_EQ(divided.n_elements(), arranged.n_elements());
     EXPECT_EQ(divided.n_cells_cut_exactly(), arranged.n_cells_cut_exactly());
@@ -163,7 +178,7 @@ TEST(DividedCells, AreThoseOfTheArrangement)
       make_regular_mesh(physical,
                         random_mesh(random, 0.05, is_snapped),
                         1 + seed % 2);
-    n_cells += compare(geometry, cells);
+    n_cells += compare(physical, cells, {});
   }
   // the comparison took place: some 150 cells each
   EXPECT_GT(n_cells, 60U * 60U);
@@ -282,9 +297,79 @@ TEST(DividedCells, AreThoseOfTheArrangementAtCoincidences)
                         1 + seed % 2);
     Geometry geometry = make_box(1., 1.);
     add_special_joints(geometry, cells, random, 2 + random.below(12));
-    n_cells += compare(geometry, cells, false);
+    n_cells += compare(PhysicalMesh(Geometry{geometry}), cells, {}, false);
   }
   EXPECT_GT(n_cells, 150U * 60U);
+}
+
+
+// Regions on several parts, two of which have nodes and edges in common. With the disk, some cells
+// of a part are arranged beside others that are divided.
+TEST(DividedCells, AreThoseOfTheArrangementOnSeveralParts)
+{
+  unsigned int n_cells = 0;
+  for (unsigned int seed = 2000; seed < 2080; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random             random(seed);
+    const PhysicalMesh square(make_box(1., 1.));
+    const bool         is_special = seed % 2 == 0;
+    const auto         make_cells = [&](const double size) {
+      return make_regular_mesh(square,
+                               random_mesh(random, size, is_special),
+                               1 + seed % 2);
+    };
+    const MathematicalMesh first    = make_cells(0.0625);
+    Geometry               geometry = make_box(1., 1.);
+    add_random_joints(geometry, random, 4 + random.below(6), is_special);
+    if (is_special)
+      add_special_joints(geometry, first, random, 2 + random.below(8));
+    if (seed % 4 >= 2)
+      geometry.add_circle({0.3, 0.3}, 0.17, "disk", CurveRole::interface);
+    const PhysicalMesh     physical(std::move(geometry));
+    const MathematicalMesh cells =
+      combine_meshes({make_mesh_part(first),
+                      make_mesh_part(first),
+                      make_mesh_part(make_cells(0.15))},
+                     first.degree());
+    std::vector<unsigned int> region_to_part;
+    for (unsigned int r = 0; r < physical.regions().size(); ++r)
+      region_to_part.push_back(random.below(3));
+    n_cells += compare(physical, cells, region_to_part, !is_special);
+  }
+  EXPECT_GT(n_cells, 80U * 60U);
+}
+
+
+// Blocks with meshes of their own: those on one triangle lie in it without touching its sides.
+TEST(DividedCells, AreThoseOfTheArrangementOnOwnMeshes)
+{
+  unsigned int n_triangles = 0;
+  for (unsigned int seed = 3000; seed < 3040; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random   random(seed);
+    Geometry geometry = make_box(1., 1.);
+    add_random_joints(geometry, random, 16, seed % 2 == 0);
+    if (seed % 4 == 1)
+      geometry.add_circle({0.3, 0.3}, 0.17, "disk", CurveRole::interface);
+    const PhysicalMesh physical(std::move(geometry));
+    OwnMeshParameters  parameters;
+    parameters.regions.assign(physical.regions().size(),
+                              {RegionMesh::Kind::own, 1 + seed % 3});
+    const OwnMeshes own =
+      make_own_meshes(std::make_unique<MathematicalMesh>(make_regular_mesh(
+                        physical, random_mesh(random, 0.3, false), 2)),
+                      physical,
+                      parameters);
+    compare(physical, *own.mathematical_mesh, own.region_to_part);
+    for (unsigned int p = 1; p < own.mathematical_mesh->n_parts(); ++p)
+    {
+      const auto [first, end] = own.mathematical_mesh->part_cells(p);
+      n_triangles += end == first + 1;
+    }
+  }
+  EXPECT_GT(n_triangles, 200U);
 }
 
 

@@ -150,6 +150,17 @@ namespace NMM
   };
 
 
+  /// How cells near physical curves are cut. The elements are the same, except for rounding.
+  enum class Cutter
+  {
+    /// Cells near straight edges are divided one by one, others by an arrangement.
+    cell_by_cell,
+    /// All cells are cut by an arrangement with exact numbers, which takes some thirty times as
+    /// long; to check the other one.
+    arrangement
+  };
+
+
   /**
    * The manifold elements: connected pieces of the mathematical mesh's triangles
    * cut by the physical mesh; the units of integration. A mathematical mesh and a physical mesh
@@ -157,10 +168,10 @@ namespace NMM
    * does all the work; the result is immutable.
    *
    * Cutting is exact and is done only in cells that a physical curve comes near; all others are
-   * whole elements without stored edges. Cells through which straight edges run, or in which they
-   * end, are divided one by one with the signs of a few determinants. Cells with arcs, with cracks
-   * or blocks inside, and all cells of a mesh of several parts are divided by an arrangement with
-   * exact numbers. Elements are numbered so that neighbours have near numbers (reverse
+   * whole elements without stored edges. Cells through which straight edges run, in which they
+   * end, or which contain a whole block, are divided one by one with the signs of a few
+   * determinants. Cells with arcs, and those with cracks or holes inside, are divided by an
+   * arrangement with exact numbers, see Cutter. Elements are numbered so that neighbours have near numbers (reverse
    * Cuthill-McKee on the element graph).
    *
    * If the mathematical mesh has several parts, each region of the physical mesh
@@ -180,13 +191,15 @@ namespace NMM
   public:
     /**
      * Cut the mathematical mesh. @p region_to_part is the part of the mathematical mesh for each
-     * region of the physical mesh; if it is empty, all regions are on part 0.
+     * region of the physical mesh; if it is empty, all regions are on part 0. @p cutter changes
+     * points by rounding, and the order of edges.
      * @throws InputError if the mathematical mesh does not cover the solid (a
      * part not its regions), or if region_to_part does not fit the meshes.
      */
     ManifoldMesh(const MathematicalMesh          &mathematical_mesh,
                  const PhysicalMesh              &physical_mesh,
-                 const std::vector<unsigned int> &region_to_part = {});
+                 const std::vector<unsigned int> &region_to_part = {},
+                 Cutter cutter = Cutter::cell_by_cell);
 
     /// The mathematical mesh of the constructor.
     const MathematicalMesh &

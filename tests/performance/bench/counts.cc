@@ -2,6 +2,7 @@
 
 #include <nmm/base/exceptions.h>
 #include <nmm/contact/assembly/statics.h>
+#include <nmm/covers/own_meshes.h>
 
 #include "report.h"
 #include "staged_model.h"
@@ -43,6 +44,48 @@ namespace NMM
 
 
       Row unused_row;
+
+
+      /// Blocks between two sets of joints, each with a mesh of its own.
+      void
+      count_cutting(Counter &counter)
+      {
+        Geometry geometry;
+        add_box(geometry, {0., 0.}, {1., 1.});
+        for (unsigned int i = 1; i < 10; ++i)
+        {
+          const double x = 0.1 * i - 0.02;
+          geometry.add_polyline({{-0.1, x}, {1.1, x + 0.05}},
+                                "flat joint " + std::to_string(i),
+                                CurveRole::joint);
+          geometry.add_polyline({{x, -0.1}, {x + 0.05, 1.1}},
+                                "steep joint " + std::to_string(i),
+                                CurveRole::joint);
+        }
+        const PhysicalMesh    physical(std::move(geometry));
+        RegularMeshParameters mesh;
+        mesh.cell_size = 0.5;
+        for (const unsigned int n_across : {1U, 3U})
+        {
+          OwnMeshParameters own;
+          own.regions.assign(physical.regions().size(),
+                             {RegionMesh::Kind::own, n_across});
+          const OwnMeshes meshes =
+            make_own_meshes(std::make_unique<MathematicalMesh>(
+                              make_regular_mesh(physical, mesh, 2)),
+                            physical,
+                            own);
+          counter.count("cutting of blocks' own meshes, " +
+                          std::to_string(n_across) + " across",
+                        "cut cell",
+                        meshes.manifold_mesh->n_cells_cut_exactly(),
+                        [&]() {
+                          const ManifoldMesh cut(*meshes.mathematical_mesh,
+                                                 physical,
+                                                 meshes.region_to_part);
+                        });
+        }
+      }
 
 
       /// A square with a few joints, of one material.
@@ -192,6 +235,7 @@ namespace NMM
     count_allocations()
     {
       Counter counter;
+      count_cutting(counter);
       count_volume(counter);
       count_contact(counter);
       return counter.counts;

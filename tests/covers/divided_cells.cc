@@ -341,18 +341,28 @@ TEST(DividedCells, AreThoseOfTheArrangementOnSeveralParts)
 }
 
 
-// Blocks with meshes of their own: those on one triangle lie in it without touching its sides.
+// Blocks with meshes of their own: those on one triangle lie in it without touching its sides. An
+// inner block is a hole in another one, and a crack in it has no connection to its outline.
 TEST(DividedCells, AreThoseOfTheArrangementOnOwnMeshes)
 {
   unsigned int n_triangles = 0;
-  for (unsigned int seed = 3000; seed < 3040; ++seed)
+  for (unsigned int seed = 3000; seed < 3080; ++seed)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random   random(seed);
     Geometry geometry = make_box(1., 1.);
-    add_random_joints(geometry, random, 16, seed % 2 == 0);
+    add_random_joints(geometry, random, 4 + random.below(13), seed % 2 == 0);
     if (seed % 4 == 1)
       geometry.add_circle({0.3, 0.3}, 0.17, "disk", CurveRole::interface);
+    if (seed % 4 >= 2)
+    {
+      geometry.add_polygon({{0.6, 0.6}, {0.7, 0.63}, {0.67, 0.73}},
+                           "inner block",
+                           CurveRole::joint);
+      geometry.add_polyline({{0.64, 0.64}, {0.66, 0.65}},
+                            "crack",
+                            CurveRole::joint);
+    }
     const PhysicalMesh physical(std::move(geometry));
     OwnMeshParameters  parameters;
     parameters.regions.assign(physical.regions().size(),
@@ -369,7 +379,7 @@ TEST(DividedCells, AreThoseOfTheArrangementOnOwnMeshes)
       n_triangles += end == first + 1;
     }
   }
-  EXPECT_GT(n_triangles, 200U);
+  EXPECT_GT(n_triangles, 300U);
 }
 
 

@@ -168,10 +168,10 @@ namespace NMM
    * does all the work; the result is immutable.
    *
    * Cutting is exact and is done only in cells that a physical curve comes near; all others are
-   * whole elements without stored edges. Cells through which straight edges run, in which they
-   * end, or which contain a whole block, are divided one by one with the signs of a few
-   * determinants. Cells with arcs, and those with cracks or holes inside, are divided by an
-   * arrangement with exact numbers, see Cutter. Elements are numbered so that neighbours have near numbers (reverse
+   * whole elements without stored edges. Cells through which straight edges run, in which they end,
+   * or which contain a whole block, are divided one by one with the signs of a few determinants.
+   * Cells with arcs, and those with cracks or holes inside, are divided by an arrangement with
+   * exact numbers, see Cutter. Elements are numbered so that neighbours have near numbers (reverse
    * Cuthill-McKee on the element graph).
    *
    * If the mathematical mesh has several parts, each region of the physical mesh

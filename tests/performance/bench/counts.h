@@ -26,7 +26,7 @@ namespace NMM
     unsigned long
     n_allocations();
 
-    /// Allocations in the loops that run in every step and iteration.
+    /// Allocations in the loops that run in every step and iteration, and in cutting.
     std::vector<Count>
     count_allocations();
 

@@ -25,8 +25,8 @@ namespace NMM
       /**
        * Divides the cells of a part that have edges near them. @p state is set to
        * CellState::untouched if edges have only points in common with the cell, else to `divided`
-       * or `arranged`. If the mesh has several parts, the vertices of the divided cells are appended
-       * to @p cutting. Nothing is done if @p near is empty.
+       * or `arranged`. If the mesh has several parts, the vertices of the divided cells are
+       * appended to @p cutting. Nothing is done if @p near is empty.
        */
       DividedCells(const PartToCut            &part,
                    const NearEdges            &near,
@@ -126,7 +126,7 @@ namespace NMM
       std::size_t
       n_edges(const Cutting &cutting) const;
 
-      /// Append an edge that starts as half-edge @p h does, and ends where half-edge @p next starts.
+      /// Append an edge from the start of half-edge @p h to that of half-edge @p next.
       void
       append_edge(unsigned int               h,
                   unsigned int               next,

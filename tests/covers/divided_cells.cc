@@ -19,8 +19,9 @@ using dealii::Tensor;
 
 namespace
 {
-  /// On meshes of several parts, points of both sides that differ by rounding are merged, and an edge
-  /// between points that are the same doubles is left out: rounding decides about edges that short.
+  /// On meshes of several parts, points of both sides that differ by rounding are merged, and an
+  /// edge between points that are the same doubles is left out: rounding decides about so short
+  /// edges.
   bool
   counts(const ManifoldMesh &mesh, const ElementEdge &edge)
   {

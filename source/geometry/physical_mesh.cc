@@ -651,6 +651,21 @@ namespace NMM
   }
 
 
+  std::vector<unsigned int>
+  PhysicalMesh::blocks_inside(const Curve &border) const
+  {
+    std::vector<bool> is_inside(n_blocks(), true);
+    for (const Region &region : regions())
+      if (!internal::contains(border, region.inside))
+        is_inside[region.block] = false;
+    std::vector<unsigned int> blocks;
+    for (unsigned int block = 0; block < n_blocks(); ++block)
+      if (is_inside[block])
+        blocks.push_back(block);
+    return blocks;
+  }
+
+
   bool
   PhysicalMesh::is_face_of(const unsigned int curve,
                            const unsigned int region) const

@@ -119,7 +119,8 @@ namespace NMM
     for (unsigned int i = 0; i < all_entries.size(); ++i)
     {
       const Entry &entry = all_entries[i];
-      if (entry.element >= first && entry.element < last)
+      if (entry.element >= first && entry.element < last &&
+          evaluator.shows(entry.element))
       {
         indices.push_back(i);
         pack(evaluator(entry.element, entry.x), numbers);

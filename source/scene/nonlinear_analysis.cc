@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <scene/current_stress.h>
 #include <scene/mechanism.h>
 #include <scene/nonlinear_analysis.h>
+#include <scene/parsing.h>
 #include <sstream>
 
 namespace NMM
@@ -32,9 +34,19 @@ namespace NMM
       {
         failure = std::current_exception();
       }
+      stages = scene.make_stages(*physical_mesh);
       if (finite)
-        solid =
-          make_solid_at_rest(*finite, scene.parameters().model.kinematics);
+      {
+        // loads have reached their full size before the first stage
+        const Loading grows = proportional_loading(problem);
+        Loading       loading;
+        loading.amplitudes = [grows](const double load_factor) {
+          return grows.amplitudes(std::min(1., load_factor));
+        };
+        solid = make_solid(*finite,
+                           scene.parameters().model.kinematics,
+                           stages.empty() ? grows : loading);
+      }
 
       const auto [first, last] = covers->locally_owned_elements();
       for (unsigned int element = first; element < last; ++element)
@@ -120,7 +132,7 @@ namespace NMM
       };
       try
       {
-        statics.run(parameters.load_steps.load_steps(), after_step);
+        run_stages(statics, parameters.load_steps.load_steps(), after_step);
       }
       catch (const NumericalFailure &)
       {
@@ -128,6 +140,53 @@ namespace NMM
         n_last_iterations = statics.last_attempt().n_lost_iterations;
         throw;
       }
+    }
+
+
+    template <typename Statics, typename AfterStep>
+    void
+    NonlinearAnalysis::run_stages(Statics         &statics,
+                                  LoadSteps        steps,
+                                  const AfterStep &after_step)
+    {
+      statics.run(steps, after_step);
+      for (unsigned int i = 0; i < stages.size(); ++i)
+      {
+        const double begin = 1. + i;
+        progress.message("    stage '" + scene.parameters().stages[i].name +
+                         "', load factors " + to_text(begin) + " to " +
+                         to_text(begin + 1.));
+        statics.begin_stage(stages[i], begin + 1.);
+        removed_blocks.insert(removed_blocks.end(),
+                              stages[i].removed_blocks.begin(),
+                              stages[i].removed_blocks.end());
+        for (double &load_factor : steps.load_factors)
+          load_factor += 1.;
+        statics.run(steps, after_step);
+      }
+    }
+
+
+    std::string
+    NonlinearAnalysis::describe_step(const double load_factor) const
+    {
+      std::ostringstream text;
+      text << "load factor " << load_factor;
+      if (load_factor > 1. && !stages.empty())
+      {
+        const auto i = static_cast<unsigned int>(std::ceil(load_factor)) - 2;
+        text << " (stage '" << scene.parameters().stages[i].name << "')";
+      }
+      return text.str();
+    }
+
+
+    bool
+    NonlinearAnalysis::is_removed(const unsigned int element) const
+    {
+      return std::find(removed_blocks.begin(),
+                       removed_blocks.end(),
+                       manifold_mesh->block(element)) != removed_blocks.end();
     }
 
 
@@ -154,7 +213,7 @@ namespace NMM
         AssertThrow(
           fault.empty(),
           NumericalFailure("There is " + fault,
-                           "load factor " + std::to_string(step.load_factor),
+                           describe_step(step.load_factor),
                            "choose a higher 'Contact/Normal stiffness', or "
                                           "loads that the solid can bear"));
         friction_work += step.dissipated;
@@ -170,7 +229,7 @@ namespace NMM
         // Small displacements are linear in the load as long as no contact state changes.
         if (solid->kinematics() == Kinematics::small)
           steps.extrapolation_degree = 1;
-        statics.run(steps, after_step);
+        run_stages(statics, steps, after_step);
       }
       catch (const NumericalFailure &error)
       {
@@ -261,14 +320,11 @@ namespace NMM
       if (terms != nullptr)
         row.plastic = HistoryRow::Plastic{plastic_dissipation,
                                           terms->totals().yielded_area};
-      double largest = 0.;
-      for (const auto &[element, xi] : output_points)
-        largest = std::max(largest, field->displacement(element, xi).norm());
-      row.max_displacement = Parallel::max(largest, communicator);
+      row.max_displacement = find_max_displacement();
       AssertThrow(
         std::isfinite(row.strain_energy) && std::isfinite(row.max_displacement),
         NumericalFailure("The strain energy or a displacement is not finite",
-                         "load factor " + std::to_string(row.load_factor),
+                         describe_step(row.load_factor),
                          "look for loads and stiffness of extreme size"));
 
       const auto [first, last] = covers->locally_owned_elements();
@@ -276,7 +332,10 @@ namespace NMM
         if (!scene.parameters().probes[entry.probe].is_line)
         {
           Tensor<1, 2> u;
-          if (entry.element >= first && entry.element < last)
+          if (entry.element >= first && entry.element < last &&
+              is_removed(entry.element))
+            u[0] = u[1] = std::numeric_limits<double>::quiet_NaN();
+          else if (entry.element >= first && entry.element < last)
             u = field->displacement(entry.element,
                                     mathematical_mesh->real_to_reference(
                                       manifold_mesh->cell(entry.element),
@@ -305,17 +364,32 @@ namespace NMM
       write_history();
       const unsigned int every = scene.parameters().output.fields_every;
       if (every > 0 && history.size() % every == 0)
-      {
-        show();
-        std::ostringstream description;
-        description << "load factor " << row.load_factor;
-        series->write(history.size() / every,
-                      last_value(),
-                      description.str(),
-                      *evaluator,
-                      sample_cracks().get());
-      }
+        write_state(row, history.size() / every);
       stop_if_asked(communicator);
+    }
+
+
+    double
+    NonlinearAnalysis::find_max_displacement() const
+    {
+      double largest = 0.;
+      for (const auto &[element, xi] : output_points)
+        if (!is_removed(element))
+          largest = std::max(largest, field->displacement(element, xi).norm());
+      return Parallel::max(largest, communicator);
+    }
+
+
+    void
+    NonlinearAnalysis::write_state(const HistoryRow  &row,
+                                   const unsigned int number)
+    {
+      show();
+      series->write(number,
+                    last_value(),
+                    describe_step(row.load_factor),
+                    *evaluator,
+                    sample_cracks().get());
     }
 
 
@@ -338,6 +412,7 @@ namespace NMM
                                          solid ? CurrentStress::of(*solid,
                                                                    *quadrature)
                                                : FieldEvaluator::StressLaw());
+      evaluator->hide_blocks(removed_blocks);
       if (inelastic_terms() != nullptr)
         evaluator->set_plastic_strain(CurrentStress::plastic_strain(
           *inelastic_terms(), *covers, *quadrature));
@@ -357,6 +432,8 @@ namespace NMM
       summary.add("newton_iterations", n_iterations);
       summary.add("cuts", n_cuts);
       summary.add("load_factor", reached_load_factor());
+      if (!stages.empty())
+        summary.add("removed_blocks", removed_blocks.size());
       if (history.empty())
         return;
       summary.add("final_residual", history.back().relative_residual);
@@ -414,7 +491,7 @@ namespace NMM
       if (history.empty())
         note << "not solved";
       else
-        note << "solved up to load factor " << reached_load_factor();
+        note << "solved up to " << describe_step(reached_load_factor());
       return note.str();
     }
 

@@ -19,8 +19,9 @@ namespace NMM
   {
     /**
      * Nonlinear statics under growing load, by Newton's method: large displacements, contact, and
-     * inelastic materials. If a load step fails, the results of the last step that converged are
-     * written.
+     * inelastic materials, and stages of all statics. The load factor grows from 0 to 1 with the loads,
+     * and by 1 in each stage after that. If a load step fails, the results of the last step that
+     * converged are written.
      */
     class NonlinearAnalysis : public SceneAnalysis
     {
@@ -74,6 +75,10 @@ namespace NMM
       /// coordinates [-].
       std::vector<std::pair<unsigned int, dealii::Point<2>>> output_points;
 
+      std::vector<StageChange> stages;
+      /// Blocks that stages have removed so far.
+      std::vector<unsigned int> removed_blocks;
+
       std::vector<HistoryRow> history;
       /// Cuts and iterations of the last step, if it failed.
       unsigned int n_last_cuts = 0, n_last_iterations = 0;
@@ -98,6 +103,30 @@ namespace NMM
 
       void
       run_contact();
+
+      /// Takes the steps of the first equilibrium and of all stages with @p statics, a NonlinearStatics
+      /// or ContactStatics.
+      template <typename Statics, typename AfterStep>
+      void
+      run_stages(Statics         &statics,
+                 LoadSteps        steps,
+                 const AfterStep &after_step);
+
+      /// "load factor 1.5", with the name of the stage.
+      std::string
+      describe_step(double load_factor) const;
+
+      /// Whether a stage has removed the element.
+      bool
+      is_removed(unsigned int element) const override;
+
+      /// Writes fields and picture of the present state into the series.
+      void
+      write_state(const HistoryRow &row, unsigned int number);
+
+      /// The largest displacement of what has not been removed [m].
+      double
+      find_max_displacement() const;
 
       /// Completes the message of @p error by the block that is not held, if there is one, and
       /// throws it. @throws NumericalFailure.

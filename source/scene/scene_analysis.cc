@@ -487,6 +487,8 @@ namespace NMM
       const auto [first, last] = covers->locally_owned_elements();
       for (unsigned int element = first; element < last; ++element)
       {
+        if (is_removed(element))
+          continue;
         const dealii::Quadrature<2> &rule = quadrature->rule(element);
         const double                 determinant =
           2. * mathematical_mesh->cell_area(manifold_mesh->cell(element));

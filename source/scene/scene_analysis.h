@@ -200,6 +200,13 @@ namespace NMM
       void
       keep_geometry();
 
+      /// Whether an element is no longer a part of the solid.
+      virtual bool
+      is_removed(unsigned int /*element*/) const
+      {
+        return false;
+      }
+
       /// Further checks of the problem, before anything is cut.
       virtual void
       check_problem()

@@ -139,6 +139,43 @@ namespace NMM
   }
 
 
+  std::vector<StageChange>
+  Scene::make_stages(const PhysicalMesh &mesh) const
+  {
+    std::vector<StageChange> result;
+    for (const StageParameters &stage : scene_parameters.stages)
+    {
+      StageChange change;
+      change.released = stage.relaxation;
+      for (const RegionParameters &region : scene_parameters.regions)
+        if (std::find(stage.removed_regions.begin(),
+                      stage.removed_regions.end(),
+                      region.name) != stage.removed_regions.end())
+          for (const unsigned int block :
+               mesh.blocks_inside(make_region(region)))
+            if (std::none_of(
+                  result.begin(), result.end(), [&](const auto &one) {
+                    const auto &all = one.removed_blocks;
+                    return std::find(all.begin(), all.end(), block) !=
+                           all.end();
+                  }))
+              change.removed_blocks.push_back(block);
+      AssertThrow(
+        stage.removed_regions.empty() || !change.removed_blocks.empty(),
+        InputError("no block of the solid is inside the regions that "
+                   "the stage removes",
+                   "parameter 'Stages/" + stage.name + "/Remove regions'",
+                   "let their borders surround a part of the solid"));
+      std::sort(change.removed_blocks.begin(), change.removed_blocks.end());
+      change.removed_blocks.erase(std::unique(change.removed_blocks.begin(),
+                                              change.removed_blocks.end()),
+                                  change.removed_blocks.end());
+      result.push_back(change);
+    }
+    return result;
+  }
+
+
   void
   Scene::add_regions(Geometry &geometry) const
   {
@@ -161,6 +198,13 @@ namespace NMM
         geometry.add_material_region(parameters.name, parameters.material);
       if (parameters.use == Use::place || parameters.use == Use::limit)
         continue;
+      if (parameters.use == Use::staged)
+      {
+        region.role  = CurveRole::joint;
+        region.state = JointState::closed;
+        geometry.add(std::move(region));
+        continue;
+      }
       // The hole has the faces that the region leaves. Faces of a restraint must not have the name
       // of the rigid body that holds them.
       region.role       = CurveRole::hole;

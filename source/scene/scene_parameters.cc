@@ -228,6 +228,7 @@ namespace NMM
     names.obstacles           = {"<obstacle>"};
     names.initial_velocities  = {"<velocity>"};
     names.probes              = {"<probe>"};
+    names.stages              = {"<stage>"};
     return names;
   }
 
@@ -252,7 +253,8 @@ namespace NMM
         {"Contact", &names.contact_laws},
         {"Obstacles", &names.obstacles},
         {"Initial velocities", &names.initial_velocities},
-        {"Probes", &names.probes}};
+        {"Probes", &names.probes},
+        {"Stages", &names.stages}};
     }
   } // namespace
 
@@ -329,7 +331,7 @@ namespace NMM
   bool
   SceneParameters::is_nonlinear() const
   {
-    return contact.is_present() || has_inelastic_material();
+    return contact.is_present() || has_inelastic_material() || !stages.empty();
   }
 
 
@@ -372,6 +374,7 @@ namespace NMM
     check_analysis();
     check_restraints();
     check_fracture();
+    check_stages();
   }
 
 

@@ -30,7 +30,8 @@ namespace NMM
     const Words<Use> region_uses = {{"place", Use::place},
                                     {"excavation", Use::excavation},
                                     {"restraint", Use::restraint},
-                                    {"limit", Use::limit}};
+                                    {"limit", Use::limit},
+                                    {"staged", Use::staged}};
 
 
     /// Whether a file is a DXF drawing, by its extension.
@@ -249,7 +250,7 @@ namespace NMM
       "is inside is no part of the solid; restraint: the same, and in its "
       "place is a rigid body that holds the solid until it is released; limit, "
       "dynamic analysis: blocks that are wholly outside of all limits are "
-      "dropped.");
+      "dropped; staged: tied to what is around it until a stage removes it.");
     entries.add("Material",
                 material,
                 "Material of the blocks with their middle inside. Empty: that "
@@ -273,7 +274,7 @@ namespace NMM
                            "section " + section + "'",
                            "set either 'Shape' or 'File'"));
     AssertThrow(
-      use == Use::place || material.empty(),
+      use == Use::place || use == Use::staged || material.empty(),
       InputError("the material '" + material +
                    (use == Use::limit
                       ? "' is of a limit, which is no place"

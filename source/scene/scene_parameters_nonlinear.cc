@@ -199,7 +199,9 @@ namespace NMM
     const std::string name =
       !is_static ? to_string(model.analysis) + " analysis"
       : model.kinematics == Kinematics::small
-        ? (contact.is_present() ? "contact" : "inelastic materials")
+        ? (contact.is_present()       ? "contact"
+           : has_inelastic_material() ? "inelastic materials"
+                                      : "stages")
         : kinematics;
     AssertThrow(covers.stabilization != Stabilization::ghost_penalty,
                 InputError("'ghost penalty' is not available with " + name,

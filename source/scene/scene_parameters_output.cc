@@ -297,6 +297,13 @@ namespace NMM
     entries.section("Time", &time);
     entries.section("Relaxation", &relaxation);
     entries.section("Safety factor", &safety_factor);
+    entries.section_of_subsections(
+      "Stages",
+      names.stages,
+      stages,
+      "Static analysis: names of the stages after the first equilibrium, in "
+      "their order, each with a subsection of its own. Each begins where the "
+      "one before has ended.");
     entries.section("Solver",
                     [&]() { SolverParameters::list_entries(entries, solver); });
     entries.section("Load steps", &load_steps);

@@ -474,8 +474,11 @@ namespace NMM
   {
     // A residual of more tolerances than these is not put down to rounding.
     constexpr double most = 10.;
+    // The sum of forces is rounded, too: that of a stressed body in balance is nothing else.
     return std::min(most * tolerance * scale,
-                    std::hypot(rounding, std::max(0., rounding_by_unknowns)));
+                    std::hypot(rounding,
+                               std::max(0., rounding_by_unknowns),
+                               std::numeric_limits<double>::epsilon() * scale));
   }
 
 

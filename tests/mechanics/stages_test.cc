@@ -23,7 +23,7 @@ namespace
   struct StressedDisk
   {
     explicit StressedDisk(const Kinematics kinematics = Kinematics::small)
-      : model(geometry(), mesh_parameters(0.4, {}, 11.), 2)
+      : model(geometry(), mesh_parameters(0.25, {}, 11.), 2)
     {
       model.problem.plane_state = PlaneState::plane_strain;
       model.problem.materials   = {
@@ -124,7 +124,7 @@ namespace
               1e-13 * pressure / modulus_of_rock * outer);
     disk.stage({{disk.core}, 1.}, 2.);
     for (const double angle : {0.1, 1., 2.5, 4.})
-      // error of cells of 0.4 radii at this wall
+      // error of cells of a quarter of a radius at this wall
       EXPECT_NEAR(disk.closure(angle), exact_closure(), 2e-3 * exact_closure());
   }
 

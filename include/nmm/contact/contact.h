@@ -18,6 +18,23 @@
 #include <string>
 #include <vector>
 
+/**
+ * @file
+ * The room `contact`: forces between faces that touch. What comes in are the covers of a solid, laws of
+ * contact and, in each assembly, displacements; what goes out are forces, their tangent and reports. It
+ * knows positions and normals, and no materials.
+ *
+ * | folder (in nmm/contact and source/contact) | what is there |
+ * |---|---|
+ * | surface | faces of the solid and of obstacles, their positions, and the initial stress at them |
+ * | detection | broad phase: pairs of faces that may touch (search.h, candidates); contact points on them (points.h, point_maker.h); the face that a point touches (nearest.cc, point_projector.h); rules where faces end, with all their numbers (corner_rules.h); paths that cross within a step (crossings.h) |
+ * | law | pressure and strength: the interface (law.h), a file for each law, and the list of them (registered_laws.cc) |
+ * | state | a contact point, what it remembers from step to step, multipliers, and how an accepted state is kept (commit.cc) or carried to a solid that is cut again |
+ * | assembly | traction of a point by its law (traction.cc), its forces and derivatives (point_terms.h), the matrix, time steps that conserve energy (time_step.h), the force term (term.h) and statics (statics.h) |
+ * | diagnostics | why a step must not be accepted, what gives way, corners that lock, overlaps |
+ *
+ * Order of calls: see Contact. To add a law, see ContactLaw.
+ */
 namespace NMM
 {
   /**

@@ -109,6 +109,11 @@ namespace NMM
     unsigned int
     find_curve(const std::string &name) const;
 
+    /// Blocks of which all regions are inside the closed curve @p border, in ascending order. A block
+    /// that the border crosses is decided by PhysicalRegion::inside.
+    std::vector<unsigned int>
+    blocks_inside(const Curve &border) const;
+
     /// Indices of all curves called @p name. Curves of one role may share a name; conditions for
     /// that name apply to all of them.
     std::vector<unsigned int>

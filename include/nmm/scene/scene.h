@@ -5,6 +5,7 @@
 #include <nmm/contact/contact.h>
 #include <nmm/geometry/physical_mesh.h>
 #include <nmm/mechanics/loading.h>
+#include <nmm/mechanics/static_system.h>
 #include <nmm/scene/parameter_tree.h>
 #include <nmm/scene/scene_parameters.h>
 
@@ -104,6 +105,11 @@ namespace NMM
     /// extension.
     std::string
     title() const;
+
+    /// What changes at the beginning of each stage. @throws InputError for regions to be removed in
+    /// which there is no block of the @p mesh.
+    std::vector<StageChange>
+    make_stages(const PhysicalMesh &mesh) const;
 
     /// The geometry before cleaning, with traces, regions and joint sets. @p notices, if not null,
     /// receives what is to be reported about drawings. @throws InputError for files that cannot be

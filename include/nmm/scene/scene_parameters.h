@@ -13,6 +13,7 @@
 #include <nmm/scene/scene_parameters_dynamics.h>
 #include <nmm/scene/scene_parameters_fracture.h>
 #include <nmm/scene/scene_parameters_geometry.h>
+#include <nmm/scene/scene_parameters_stages.h>
 #include <nmm/solution/newton_solver.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -330,6 +331,8 @@ namespace NMM
     std::vector<std::string> initial_velocities;
     /// Names in `Probes`.
     std::vector<std::string> probes;
+    /// Names in `Stages`.
+    std::vector<std::string> stages;
 
     /// An example name in each list, for the parameter reference.
     static SceneNames
@@ -387,6 +390,8 @@ namespace NMM
     SafetyFactorSectionParameters safety_factor;
     /// The subsections of `Initial velocities`.
     std::vector<InitialVelocityParameters> initial_velocities;
+    /// The subsections of `Stages`.
+    std::vector<StageParameters> stages;
     /// The section `Solver`.
     LinearSolverParameters solver;
     /// The section `Load steps`.
@@ -448,6 +453,9 @@ namespace NMM
     check_analysis() const;
     void
     check_safety_factor() const;
+
+    void
+    check_stages() const;
     void
     check_safety_output() const;
     void

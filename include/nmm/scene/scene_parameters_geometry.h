@@ -106,7 +106,9 @@ namespace NMM
       /// The part inside is removed, and a rigid body takes its place until it is released.
       restraint,
       /// Blocks that lie outside of all regions with this use are removed.
-      limit
+      limit,
+      /// A tied joint surrounds the part inside, which a stage can remove.
+      staged
     };
 
     /// Name of the subsection, by which joint sets and traces refer to the region.

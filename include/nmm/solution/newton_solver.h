@@ -250,6 +250,7 @@ namespace NMM
    *
    * A residual is a sum of forces that have been rounded. Its floor is estimated from
    * AssembledSystem::force_rounding, for example of stiff springs that multiply the rounding of gaps,
+   * from that of sums, @f$ \epsilon @f$ times the force scale,
    * and from the rounding of the unknowns, @f$ \epsilon\,(\sum_{ij} (K_{ij} u_j)^2)^{1/2} @f$, for example
    * in cells that are much thinner than the displacements are large. A residual below this floor, but
    * at most ten times the tolerance, counts as converged once an iteration has not halved it.

@@ -38,20 +38,21 @@ namespace NMM
       }
 
 
-      /// Find the times, from 0 to 1, at which a point p meets a chord from a to b, all of which
-      /// move on straight lines. Calls action(time, parameter of the chord).
+      /// The straight way of a point.
+      struct Way
+      {
+        Point<2> begin, end;
+      };
+
+
+      /// Find the times, from 0 to 1, at which a point p meets a chord from a to b. Calls
+      /// action(time, parameter of the chord).
       template <typename Action>
       void
-      meet(const Point<2> &p_0,
-           const Point<2> &p_1,
-           const Point<2> &a_0,
-           const Point<2> &a_1,
-           const Point<2> &b_0,
-           const Point<2> &b_1,
-           const Action   &action)
+      meet(const Way &p, const Way &a, const Way &b, const Action &action)
       {
-        const Tensor<1, 2> P = p_0 - a_0, dP = (p_1 - a_1) - P;
-        const Tensor<1, 2> B = b_0 - a_0, dB = (b_1 - a_1) - B;
+        const Tensor<1, 2> P = p.begin - a.begin, dP = (p.end - a.end) - P;
+        const Tensor<1, 2> B = b.begin - a.begin, dB = (b.end - a.end) - B;
         const double       c_0 = cross(B, P), c_1 = cross(B, dP) + cross(dB, P),
                      c_2 = cross(dB, dP);
         double       times[2];
@@ -339,16 +340,15 @@ namespace NMM
       const unsigned int n = 1 + static_cast<unsigned int>(angle / piece_angle);
       for (unsigned int piece = 0; piece < n; ++piece)
       {
-        const double   begin = piece / double(n), end = (piece + 1) / double(n);
-        const Point<2> p_0 = position(edge, s, begin),
-                       p_1 = position(edge, s, end);
+        const double begin = piece / double(n), end = (piece + 1) / double(n);
+        const auto   way = [&](const unsigned int one, const double t) {
+          return Way{position(one, t, begin), position(one, t, end)};
+        };
+        const Way p = way(edge, s);
         for (const Chord &chord : chords)
-          meet(p_0,
-               p_1,
-               position(chord.edge, chord.first, begin),
-               position(chord.edge, chord.first, end),
-               position(chord.edge, chord.last, begin),
-               position(chord.edge, chord.last, end),
+          meet(p,
+               way(chord.edge, chord.first),
+               way(chord.edge, chord.last),
                [&](const double time, const double t) {
                  const double now = begin + time / n;
                  Place        place;

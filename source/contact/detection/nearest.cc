@@ -220,7 +220,8 @@ namespace NMM
     {
       const unsigned int body =
         home < any_edge ? surface->edges()[home].body : invalid_index;
-      return project_within(place, masters, slack, home, body, reach, admitted);
+      return project_within(
+        place, masters, {slack, home, body}, reach, admitted);
     }
 
 
@@ -341,9 +342,7 @@ namespace NMM
       admitted.least_facing = least_facing_along;
       return project_within(surface->place(slave_edges[position], s),
                             masters(position),
-                            0.,
-                            invalid_index,
-                            invalid_index,
+                            {},
                             reach_of_piece * reach,
                             admitted)
         .master;
@@ -396,15 +395,14 @@ namespace NMM
                              const double       s,
                              const unsigned int master) const
     {
-      const auto             &edges  = surface->edges();
-      const unsigned int      slave  = slave_edges[position];
-      const ContactProjection result = project_within(surface->place(slave, s),
-                                                      masters(position),
-                                                      end_of_home,
-                                                      any_edge,
-                                                      edges[master].body,
-                                                      reach,
-                                                      AdmittedContact());
+      const auto             &edges = surface->edges();
+      const unsigned int      slave = slave_edges[position];
+      const ContactProjection result =
+        project_within(surface->place(slave, s),
+                       masters(position),
+                       {end_of_home, any_edge, edges[master].body},
+                       reach,
+                       AdmittedContact());
       if (result.master == invalid_index)
         return invalid_index;
       const double beyond =
@@ -419,9 +417,7 @@ namespace NMM
     ContactSearch::project_within(
       const Place                                &slave_place,
       const dealii::ArrayView<const unsigned int> masters,
-      const double                                given_slack,
-      const unsigned int                          home,
-      const unsigned int                          body,
+      const Masters                              &which,
       const double                                largest_gap,
       const AdmittedContact                      &admitted) const
     {
@@ -435,9 +431,9 @@ namespace NMM
       for (const unsigned int master : masters)
       {
         const ContactSurface::Edge &edge = surface->edges()[master];
-        if (body != invalid_index && edge.body != body)
+        if (which.body != invalid_index && edge.body != which.body)
           continue;
-        const double slack  = slack_of(master, given_slack, home);
+        const double slack  = slack_of(master, which.slack, which.home);
         const double before = extension(edge.at_start, slack);
         const double after  = extension(edge.at_end, slack);
         // The master is neither in contact nor a far side.

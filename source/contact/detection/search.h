@@ -398,12 +398,18 @@ namespace NMM
              unsigned int                     corner,
              const std::vector<unsigned int> &masters);
 
+      /// By how much masters are continued beyond their ends, see project(), and the body whose
+      /// masters alone count; invalid_index: those of all bodies.
+      struct Masters
+      {
+        double       slack = 0.;
+        unsigned int home = invalid_index, body = invalid_index;
+      };
+
       ContactProjection
       project_within(const ContactSurface::Place          &slave_place,
                      dealii::ArrayView<const unsigned int> masters,
-                     double                                slack,
-                     unsigned int                          home,
-                     unsigned int                          body,
+                     const Masters                        &which,
                      double                                largest_gap,
                      const AdmittedContact                &admitted) const;
 

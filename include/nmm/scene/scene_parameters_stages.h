@@ -1,0 +1,31 @@
+#ifndef nmm_scene_scene_parameters_stages_h
+#define nmm_scene_scene_parameters_stages_h
+
+#include <string>
+#include <vector>
+
+namespace NMM
+{
+  namespace internal
+  {
+    class Entries;
+  }
+
+  /// A stage after the first equilibrium: a subsection of `Stages`.
+  struct StageParameters
+  {
+    /// Name of the subsection.
+    std::string name;
+    /// Names of the regions that are removed at the beginning of the stage.
+    std::vector<std::string> removed_regions;
+    /// Share of the tractions on the walls of all regions removed so far that is released at the end
+    /// of the stage [-].
+    double relaxation = 1.;
+
+    /// Declares or reads the entries of the subsection.
+    void
+    list_entries(internal::Entries &entries);
+  };
+} // namespace NMM
+
+#endif

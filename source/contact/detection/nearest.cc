@@ -497,8 +497,9 @@ namespace NMM
       constexpr auto              concave = ContactSurface::Corner::concave;
       // At the tip of a wedge the springs may be compressed by more than the wedge is thick. A point
       // whose piece was laid on this face stays with it there.
-      const bool is_at_tip = best.master == home && (best.t < end_of_home ||
-                                                     best.t > 1. - end_of_home);
+      const bool is_at_tip =
+        best.master == which.home &&
+        (best.t < end_of_home || best.t > 1. - end_of_home);
       for (const auto &[far, gap] : outside)
         if (
           surface->edges()[far].body == edge.body &&

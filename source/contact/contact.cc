@@ -63,9 +63,11 @@ namespace NMM
     for (unsigned int e = 0; e < parameters.initial_stress.size(); ++e)
       for (const double s : {0., 0.5, 1.})
       {
-        const Tensor<1, 2> n = surface->reference_place(e, s).normal();
+        const ContactSurface::Place place = surface->reference_place(e, s);
+        const Tensor<1, 2>          n     = place.normal();
         pressure =
-          std::max(pressure, -n * (parameters.initial_stress[e].stress * n));
+          std::max(pressure,
+                   -n * (parameters.initial_stress[e].at(place.x) * n));
       }
     if (pressure == 0.)
       return 0.;

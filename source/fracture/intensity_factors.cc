@@ -96,8 +96,8 @@ namespace NMM
         , elasticity(material.plane_elasticity(problem.plane_state))
         , frame({{tip.direction[0], -tip.direction[1]},
                  {tip.direction[1], tip.direction[0]}})
-        , initial_stress(
-            dealii::symmetrize(in_frame(Tensor<2, 2>(material.initial_stress))))
+        , initial_stress(dealii::symmetrize(
+            in_frame(Tensor<2, 2>(material.initial_stress_at(tip.point)))))
         , fields{{{TipField::Kind::opening, elasticity},
                   {TipField::Kind::sliding, elasticity},
                   {TipField::Kind::point_force, elasticity}}}
@@ -118,6 +118,7 @@ namespace NMM
                                          return extra_stress(region).norm() >
                                                 0.;
                                        }))
+        , has_varying_stress(problem.has_varying_initial_stress())
         , rules(rules)
         , gauss(rule_degree)
         , sums(n_fields * radii.size(), 0.)
@@ -186,7 +187,9 @@ namespace NMM
       const bool has_varying_force;
       const bool is_bent;
       /// Whether the initial stress of any region differs from `initial_stress`.
-      const bool              has_stress_jumps;
+      const bool has_stress_jumps;
+      /// Whether the initial stress of any region varies within it.
+      const bool              has_varying_stress;
       DiskRules              &rules;
       const dealii::QGauss<1> gauss;
       Tensor<1, 2>            displacement_of_tip;
@@ -233,12 +236,25 @@ namespace NMM
       }
 
 
-      /// Initial stress of a region without that of the tip's region [Pa].
+      /// Initial stress of a region at the tip without that of the tip's region [Pa].
       SymmetricTensor<2, 2>
       extra_stress(const unsigned int region) const
       {
-        return problem.materials[region_to_material[region]].initial_stress -
-               material.initial_stress;
+        return problem.materials[region_to_material[region]].initial_stress_at(
+                 tip.point) -
+               material.initial_stress_at(tip.point);
+      }
+
+
+      /// Initial stress of a region at @p x without that at the tip [Pa], in the tip's frame.
+      SymmetricTensor<2, 2>
+      varying_stress(const unsigned int region, const Point<2> &x) const
+      {
+        const Material &here = problem.materials[region_to_material[region]];
+        if (here.varying_initial_stress == nullptr)
+          return {};
+        return dealii::symmetrize(in_frame(Tensor<2, 2>(
+          here.initial_stress_at(x) - here.initial_stress_at(tip.point))));
       }
 
 
@@ -288,7 +304,8 @@ namespace NMM
       {
         const auto        &cells = mesh.mathematical_mesh();
         const unsigned int cell  = mesh.cell(element);
-        // Near the tip q is constant, so that only a body force that varies contributes.
+        // Near the tip q is constant, so that only a body force and an initial stress that vary
+        // contribute.
         const bool is_on_plateau =
           std::all_of(cells.cell_vertices(cell).begin(),
                       cells.cell_vertices(cell).end(),
@@ -296,7 +313,7 @@ namespace NMM
                         return cells.vertices()[v].distance(tip.point) <
                                plateau * smallest_radius;
                       });
-        if (is_on_plateau && !has_varying_force)
+        if (is_on_plateau && !has_varying_force && !has_varying_stress)
           return;
 
         const double                 determinant = 2. * cells.cell_area(cell);
@@ -305,11 +322,16 @@ namespace NMM
         {
           const Point<2> x = cells.reference_to_real(cell, rule.point(p));
           const double   r = x.distance(tip.point);
-          if (r < largest_radius && r > 0.)
-            add_area_point(x,
-                           in_frame(gradient(element, rule.point(p))),
-                           varying_force(element, rule.point(p), x),
-                           determinant * rule.weight(p));
+          if (!(r < largest_radius && r > 0.))
+            continue;
+          add_area_point(x,
+                         in_frame(gradient(element, rule.point(p))),
+                         varying_force(element, rule.point(p), x),
+                         determinant * rule.weight(p));
+          if (has_varying_stress)
+            add_varying_stress(x,
+                               varying_stress(mesh.region(element), x),
+                               determinant * rule.weight(p));
         }
       }
 
@@ -358,6 +380,36 @@ namespace NMM
               weight *
               (slope / r * (flux * ray + ray[0] * (force_work - density)) -
                q * (varying_force * a_1));
+          }
+        }
+      }
+
+
+      /// Adds D : grad(q a_,1) for the part D of the initial stress that varies. The strain of a_,1
+      /// follows from its stress.
+      void
+      add_varying_stress(const Point<2>              &x,
+                         const SymmetricTensor<2, 2> &D,
+                         const double                 weight)
+      {
+        const Tensor<1, 2> ray         = in_frame(x - tip.point);
+        const double       r           = ray.norm();
+        const auto         fields_here = fields_at(x);
+        const double       lambda = elasticity.lambda, mu = elasticity.mu;
+        for (unsigned int f = 0; f < n_fields; ++f)
+        {
+          const Tensor<2, 2>          &a = fields_here[f].gradient;
+          const SymmetricTensor<2, 2> &s = fields_here[f].stress_derivatives[0];
+          const double                 strain_work =
+            (D * s - lambda / (2. * (lambda + mu)) * dealii::trace(s) *
+                       dealii::trace(D)) /
+            (2. * mu);
+          const double work = ray * (D * Tensor<1, 2>({a[0][0], a[1][0]}));
+          for (unsigned int d = 0; d < radii.size(); ++d)
+          {
+            const auto [q, slope] = cut_off(r, radii[d]);
+            sums[n_fields * d + f] +=
+              weight * (slope / r * work + q * strain_work);
           }
         }
       }

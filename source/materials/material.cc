@@ -87,6 +87,20 @@ namespace NMM
                 InputError("There is an initial stress across the plane",
                            where,
                            "give a finite one, in plane strain only"));
+    if (varying_initial_stress)
+    {
+      const unsigned int n = varying_initial_stress->n_components;
+      AssertThrow(n == 3 || (n == 4 && plane_state == PlaneState::plane_strain),
+                  InputError("The initial stress has " + std::to_string(n) +
+                               " components",
+                             where,
+                             "give xx, yy, xy and, in plane strain only, zz"));
+      AssertThrow(initial_stress.norm() == 0. && !given_initial_stress_zz,
+                  InputError("There are a uniform initial stress and one that "
+                             "varies",
+                             where,
+                             "add the uniform one to the function"));
+    }
     law->check(where, plane_state);
   }
 
@@ -118,11 +132,12 @@ namespace NMM
 
   double
   Material::out_of_plane_stress(const dealii::SymmetricTensor<2, 2> &strain,
-                                const PlaneState plane_state) const
+                                const PlaneState        plane_state,
+                                const dealii::Point<2> &x) const
   {
     if (plane_state == PlaneState::plane_stress)
       return 0.;
-    return initial_stress_zz(plane_state) +
+    return initial_stress_zz_at(x, plane_state) +
            plane_elasticity(plane_state).lambda * dealii::trace(strain);
   }
 
@@ -135,6 +150,46 @@ namespace NMM
     return given_initial_stress_zz
              ? *given_initial_stress_zz
              : poissons_ratio * dealii::trace(initial_stress);
+  }
+
+
+  bool
+  Material::has_initial_stress() const
+  {
+    return varying_initial_stress != nullptr || initial_stress.norm() > 0.;
+  }
+
+
+  dealii::SymmetricTensor<2, 2>
+  Material::initial_stress_at(const dealii::Point<2> &x) const
+  {
+    return varying_initial_stress == nullptr
+             ? initial_stress
+             : stress_at(*varying_initial_stress, x);
+  }
+
+
+  double
+  Material::initial_stress_zz_at(const dealii::Point<2> &x,
+                                 const PlaneState        plane_state) const
+  {
+    if (varying_initial_stress == nullptr ||
+        plane_state == PlaneState::plane_stress)
+      return initial_stress_zz(plane_state);
+    return varying_initial_stress->n_components > 3
+             ? varying_initial_stress->value(x, 3)
+             : poissons_ratio * dealii::trace(initial_stress_at(x));
+  }
+
+
+  dealii::SymmetricTensor<2, 2>
+  stress_at(const dealii::Function<2> &components, const dealii::Point<2> &x)
+  {
+    dealii::SymmetricTensor<2, 2> result;
+    result[0][0] = components.value(x, 0);
+    result[1][1] = components.value(x, 1);
+    result[0][1] = components.value(x, 2);
+    return result;
   }
 
 

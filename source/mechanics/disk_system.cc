@@ -139,6 +139,11 @@ namespace NMM
       const std::vector<unsigned int> pressures =
         pressures_within(region, conditions);
 
+      AssertThrow(material.varying_initial_stress == nullptr,
+                  InputError("a disk cover bears a uniform initial stress only",
+                             "material \"" + material.name + "\"",
+                             "resolve its crack tip by a graded mesh "
+                             "instead"));
       DiskCover::Loads loads;
       loads.initial_stress              = material.initial_stress;
       const dealii::Tensor<1, 2> weight = material.density * problem->gravity;

@@ -51,6 +51,11 @@ namespace NMM
       region_to_elasticity.push_back(m.plane_elasticity(problem.plane_state));
       region_to_initial_stress.push_back(m.initial_stress);
     }
+    if (problem.has_varying_initial_stress())
+      for (const unsigned int material :
+           problem.region_to_material(covers->manifold_mesh().physical_mesh()))
+        region_to_varying.push_back(
+          problem.materials[material].varying_initial_stress);
   }
 
 
@@ -167,18 +172,27 @@ namespace NMM
   DisplacementField::stress(const unsigned int      element,
                             const dealii::Point<2> &xi) const
   {
-    return stress_from_gradient(element, gradient(element, xi));
+    return stress_from_gradient(element, xi, gradient(element, xi));
   }
 
 
   dealii::SymmetricTensor<2, 2>
   DisplacementField::stress_from_gradient(
     const unsigned int          element,
+    const dealii::Point<2>     &xi,
     const dealii::Tensor<2, 2> &gradient) const
   {
-    const unsigned int region = covers->manifold_mesh().region(element);
-    return region_to_initial_stress[region] +
-           region_to_elasticity[region].stress(gradient);
+    const ManifoldMesh           &mesh   = covers->manifold_mesh();
+    const unsigned int            region = mesh.region(element);
+    dealii::SymmetricTensor<2, 2> stress =
+      region_to_initial_stress[region] +
+      region_to_elasticity[region].stress(gradient);
+    if (!region_to_varying.empty() && region_to_varying[region])
+      stress +=
+        stress_at(*region_to_varying[region],
+                  mesh.mathematical_mesh().reference_to_real(mesh.cell(element),
+                                                             xi));
+    return stress;
   }
 
 

@@ -51,7 +51,10 @@ namespace NMM
           if (problem->boundary_conditions[c].type == Type::follower_pressure)
             add_follower(c, element, rule);
           else if (is_weak(problem->boundary_conditions[c]))
+          {
             maker.append_condition(c, element, rule, weak_points);
+            append_places(element, rule);
+          }
         }
       }
       weak.last_point     = weak_points.size();
@@ -102,15 +105,28 @@ namespace NMM
       const ManifoldMesh &mesh = covers->manifold_mesh();
       Site                site{element, edge.neighbor, 0, 0};
       site.first_point = weak_points.size();
-      maker.append_tie(element,
-                       edge,
-                       make_edge_rule(edge,
-                                      cell_frame(mesh, element),
-                                      2 * degree),
-                       weak_points);
+      const EdgeRule rule =
+        make_edge_rule(edge, cell_frame(mesh, element), 2 * degree);
+      maker.append_tie(element, edge, rule, weak_points);
+      append_places(element, rule);
       site.last_point = weak_points.size();
       if (site.last_point > site.first_point)
         ties.push_back(site);
+    }
+
+
+    /// There are as many new points as the rule has, or none.
+    void
+    EdgeTables::append_places(const unsigned int element, const EdgeRule &rule)
+    {
+      if (!problem->has_varying_initial_stress())
+        return;
+      const ManifoldMesh &mesh = covers->manifold_mesh();
+      for (const dealii::Point<2> &xi : rule.points)
+        if (places.size() < weak_points.size())
+          places.push_back(
+            mesh.mathematical_mesh().reference_to_real(mesh.cell(element), xi));
+      AssertDimension(places.size(), weak_points.size());
     }
 
 

@@ -54,9 +54,12 @@ namespace NMM
       };
 
       /// Sites of displacement conditions, ties and follower pressure, each list sorted by element.
-      std::vector<Site>          conditions, ties, followers;
-      std::vector<WeakPoint>     weak_points;
-      std::vector<FollowerPoint> follower_points;
+      std::vector<Site>      conditions, ties, followers;
+      std::vector<WeakPoint> weak_points;
+      /// Place of each weak point in the reference configuration [m]; empty unless the initial stress
+      /// of a material varies.
+      std::vector<dealii::Point<2>> places;
+      std::vector<FollowerPoint>    follower_points;
 
     private:
       void
@@ -65,6 +68,10 @@ namespace NMM
 
       void
       add_tie(unsigned int element, const ElementEdge &edge);
+
+      /// Append the places of the weak points that have been made by @p rule, if they are needed.
+      void
+      append_places(unsigned int element, const EdgeRule &rule);
 
       void
       add_follower(unsigned int    condition,

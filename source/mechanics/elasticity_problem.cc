@@ -2,6 +2,7 @@
 #include <nmm/geometry/physical_mesh.h>
 #include <nmm/mechanics/elasticity_problem.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -148,6 +149,17 @@ namespace NMM
       result.push_back(found);
     }
     return result;
+  }
+
+
+  bool
+  ElasticityProblem::has_varying_initial_stress() const
+  {
+    return std::any_of(materials.begin(),
+                       materials.end(),
+                       [](const Material &material) {
+                         return material.varying_initial_stress != nullptr;
+                       });
   }
 
 

@@ -12,6 +12,7 @@
 #include <mechanics/edge_tables.h>
 #include <mechanics/element_tables.h>
 #include <mechanics/ghost_terms.h>
+#include <mechanics/initial_stress_terms.h>
 #include <mechanics/linear_terms.h>
 #include <mechanics/point_terms.h>
 #include <memory>
@@ -235,8 +236,10 @@ namespace NMM
     internal::LinearTerms                          linear_terms;
     mutable std::optional<internal::ElementTables> tables;
     std::unique_ptr<EdgeTables>                    edges;
-    internal::DeadLoads                            dead_loads;
-    internal::CoverMatrixAssembler                 assembler;
+    /// Null if no initial stress varies.
+    std::unique_ptr<internal::InitialStressTerms> initial_stress;
+    internal::DeadLoads                           dead_loads;
+    internal::CoverMatrixAssembler                assembler;
 
     bool                                 is_inelastic = false;
     internal::RegionLaws                 region_to_law;

@@ -26,6 +26,20 @@ namespace NMM
       problem.check(mesh.physical_mesh());
       return mesh;
     }
+
+
+    /// The mean of two displacements of @p n covers.
+    LocalDisplacement
+    mean(const LocalDisplacement &a,
+         const LocalDisplacement &b,
+         const unsigned int       n)
+    {
+      LocalDisplacement result;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int c = 0; c < 2; ++c)
+          result.values[i][c] = 0.5 * (a.values[i][c] + b.values[i][c]);
+      return result;
+    }
   } // namespace
 
 
@@ -57,6 +71,11 @@ namespace NMM
                                          problem,
                                          curve_conditions,
                                          trace_constants);
+    if (problem.has_varying_initial_stress())
+      initial_stress = std::make_unique<InitialStressTerms>(covers,
+                                                            quadrature,
+                                                            problem,
+                                                            *edges);
     for (const EdgeTables::Site &tie : edges->ties)
       assembler.couple({covers_of_tie(tie).data(), 2 * n_per_cell});
     for (const auto &[first, second] : ghost_pairs)
@@ -177,6 +196,9 @@ namespace NMM
           {terms.jump(begin, factor[0]), terms.jump(end, factor[1])}};
         state = conserving_fluxes(
           region_to_conserving_law, begin, end, d, task.tangent, terms);
+        if (initial_stress)
+          initial_stress->add_finite_fluxes(
+            q, mean(begin, end, point.n_sides * n_per_cell), terms);
         gauge_jump(point, d[1]);
         energies.work_of_conditions -= point.weight * (factor[1] - factor[0]) *
                                        (terms.force() * point.prescribed);
@@ -185,9 +207,17 @@ namespace NMM
       {
         terms.d = terms.jump(u, factor[0]);
         if (task.forces == Forces::finite)
+        {
           state = elastic_fluxes(region_to_law, u, task.tangent, terms);
+          if (initial_stress)
+            initial_stress->add_finite_fluxes(q, u, terms);
+        }
         else
+        {
           set_linear_fluxes(linear_terms.laws(), u, terms);
+          if (initial_stress)
+            initial_stress->add_small_fluxes(q, terms);
+        }
         gauge_jump(point, terms.d);
       }
       if (state == Deformation::admissible)
@@ -262,32 +292,46 @@ namespace NMM
     if (task.forces == Forces::at_rest)
     {
       linear_terms.add_at_rest(element, local);
+      if (initial_stress)
+        initial_stress->add_small(element, LocalDisplacement(), local);
       return Deformation::admissible;
     }
     const ElementTables::View table = (*tables)(element);
     if (task.forces == Forces::linearized)
     {
       linear_terms.add_forces(element, table, u, local);
+      if (initial_stress)
+        initial_stress->add_small(element, u, local);
       return Deformation::admissible;
     }
     if (task.forces == Forces::between)
     {
       first.gather(element_covers, nodal_begin);
       second.gather(element_covers, nodal_end);
-      return add_conserving_terms(region_to_conserving_law[region],
-                                  table,
-                                  first,
-                                  second,
-                                  task.damping,
-                                  local);
+      const Deformation state =
+        add_conserving_terms(region_to_conserving_law[region],
+                             table,
+                             first,
+                             second,
+                             task.damping,
+                             local);
+      if (initial_stress)
+        initial_stress->add_finite(element,
+                                   mean(first, second, n_per_cell),
+                                   local);
+      return state;
     }
     if (task.has_increment)
       first.gather(element_covers, nodal_increment);
-    return add_volume_terms(*region_to_law[region],
-                            table,
-                            u,
-                            task.has_increment ? &first : nullptr,
-                            local);
+    const Deformation state =
+      add_volume_terms(*region_to_law[region],
+                       table,
+                       u,
+                       task.has_increment ? &first : nullptr,
+                       local);
+    if (initial_stress)
+      initial_stress->add_finite(element, u, local);
+    return state;
   }
 
 

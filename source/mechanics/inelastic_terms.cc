@@ -61,6 +61,10 @@ namespace NMM
     void
     number_states();
 
+    /// Give the material the states of an initial stress that varies.
+    void
+    set_initial_states();
+
     bool
     is_inelastic(const unsigned int region) const
     {
@@ -118,6 +122,8 @@ namespace NMM
     std::vector<PlaneElasticity>  region_to_elasticity;
     std::vector<Element>          elements;
     std::vector<MaterialState>    accepted, current;
+    /// States of the undeformed material, see initial_state(); empty if no initial stress varies.
+    std::vector<MaterialState> initial;
     /// Whether laws had a stress at all points of the last assembly.
     bool is_admissible = true;
 
@@ -139,6 +145,8 @@ namespace NMM
     Assert(elasticity.is_inelastic, dealii::ExcInternalError());
     elasticity.make_tables();
     number_states();
+    if (elasticity.problem->has_varying_initial_stress())
+      set_initial_states();
 
     for (const Element &item : elements)
       for (const Site *site : item.sites)
@@ -202,6 +210,90 @@ namespace NMM
   }
 
 
+  namespace
+  {
+    /**
+     * The state in which a material that is not strained has its initial stress sigma_0 at @p x: the
+     * plastic strain is -C^-1 sigma_0, so that C (epsilon - epsilon^p) = sigma_0 at epsilon = 0. The
+     * stress that is due to it does work as sigma_0 does, but the stored energy begins with
+     * offset_of_energy(). In plane stress the strain across the plane begins with 0.
+     */
+    MaterialState
+    initial_state(const Material         &material,
+                  const PlaneState        plane_state,
+                  const dealii::Point<2> &x)
+    {
+      const PlaneElasticity c       = material.plane_elasticity(plane_state);
+      const auto            sigma   = material.initial_stress_at(x);
+      const bool            is_thin = plane_state == PlaneState::plane_stress;
+      const double          zz = material.initial_stress_zz_at(x, plane_state);
+      const double          share = c.lambda * (dealii::trace(sigma) + zz) /
+                           ((is_thin ? 2. : 3.) * c.lambda + 2. * c.mu);
+      MaterialState result;
+      result.plastic_strain =
+        (share * dealii::unit_symmetric_tensor<2>() - sigma) / (2. * c.mu);
+      const double nu = material.poissons_ratio;
+      result.plastic_strain_zz =
+        is_thin ? -nu / (1. - nu) * dealii::trace(result.plastic_strain)
+                : (share - zz) / (2. * c.mu);
+      return result;
+    }
+
+
+    /// e : C : e / 2 for the strain e of an initial_state() [Pa].
+    double
+    offset_of_energy(const MaterialState   &initial,
+                     const PlaneElasticity &c,
+                     const PlaneState       plane_state)
+    {
+      const double zz    = plane_state == PlaneState::plane_stress
+                             ? 0.
+                             : initial.plastic_strain_zz,
+                   trace = dealii::trace(initial.plastic_strain) + zz;
+      return 0.5 * c.lambda * trace * trace +
+             c.mu * (initial.plastic_strain * initial.plastic_strain + zz * zz);
+    }
+  } // namespace
+
+
+  void
+  InelasticTerms::Data::set_initial_states()
+  {
+    const CoverSystem              &covers  = *elastic->covers;
+    const ManifoldMesh             &mesh    = covers.manifold_mesh();
+    const EdgeTables               &edges   = *elastic->edges;
+    const ElasticityProblem        &problem = *elastic->problem;
+    const std::vector<unsigned int> region_to_material =
+      problem.region_to_material(mesh.physical_mesh());
+    initial.resize(accepted.size());
+    const auto set = [&](MaterialState     &state,
+                         const unsigned int region,
+                         const auto        &x) {
+      const Material &material = problem.materials[region_to_material[region]];
+      if (is_inelastic(region) && material.varying_initial_stress)
+        state = initial_state(material, problem.plane_state, x);
+    };
+    for (const Element &item : elements)
+    {
+      std::size_t state = item.first_state;
+      if (item.is_inelastic)
+        for (const dealii::Point<2> &xi :
+             elastic->quadrature->rule(item.element).get_points())
+          set(initial[state++],
+              mesh.region(item.element),
+              mesh.mathematical_mesh().reference_to_real(
+                mesh.cell(item.element), xi));
+      for (const Site *site : item.sites)
+        for (unsigned int q = site->first_point; q < site->last_point; ++q)
+          for (unsigned int s = 0; s < edges.weak_points[q].n_sides; ++s)
+            set(initial[state++],
+                edges.weak_points[q].sides[s].region,
+                edges.places[q]);
+    }
+    accepted = current = initial;
+  }
+
+
   void
   InelasticTerms::Data::evaluate(const unsigned int      region,
                                  const Gradients        &gradients,
@@ -221,6 +313,10 @@ namespace NMM
       response      = InelasticLaw::Response();
       excess        = Excess();
     }
+    else if (!initial.empty())
+      excess.energy -= offset_of_energy(initial[state],
+                                        region_to_elasticity[region],
+                                        elastic->problem->plane_state);
     current[state] = response.state;
   }
 
@@ -537,7 +633,10 @@ namespace NMM
   void
   InelasticTerms::forget_states()
   {
-    std::fill(data->accepted.begin(), data->accepted.end(), MaterialState());
+    if (data->initial.empty())
+      std::fill(data->accepted.begin(), data->accepted.end(), MaterialState());
+    else
+      data->accepted = data->initial;
     data->current = data->accepted;
   }
 

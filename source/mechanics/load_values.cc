@@ -48,12 +48,25 @@ namespace NMM
       const ManifoldMesh     &mesh              = covers.manifold_mesh();
       const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
       const internal::CurveConditions conditions(mesh, problem);
-      std::string                     fault;
+      const bool varying_stress = problem.has_varying_initial_stress();
+      const std::vector<unsigned int> region_to_material =
+        problem.region_to_material(mesh.physical_mesh());
+      std::string fault;
       const auto [first, last] = covers.locally_owned_elements();
       for (unsigned int e = first; e < last && fault.empty(); ++e)
       {
         const unsigned int           cell = mesh.cell(e);
         const dealii::Quadrature<2> &rule = quadrature.rule(e);
+        if (varying_stress)
+          if (const auto &stress =
+                problem.materials[region_to_material[mesh.region(e)]]
+                  .varying_initial_stress)
+            for (unsigned int q = 0; q < rule.size() && fault.empty(); ++q)
+              fault =
+                find_fault(*stress,
+                           mathematical_mesh.reference_to_real(cell,
+                                                               rule.point(q)),
+                           "the initial stress");
         if (problem.body_force != nullptr)
           for (unsigned int q = 0; q < rule.size() && fault.empty(); ++q)
             fault =

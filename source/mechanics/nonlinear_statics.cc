@@ -97,7 +97,7 @@ namespace NMM
       states.push_back({0., elasticity.initial_solution()});
       for (const Material &material : elasticity.elasticity_problem().materials)
         begins_out_of_balance =
-          begins_out_of_balance || material.initial_stress.norm() > 0.;
+          begins_out_of_balance || material.has_initial_stress();
     }
 
     /// In small displacements the potential is convex, and hence no solution is spurious.

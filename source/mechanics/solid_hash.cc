@@ -62,6 +62,14 @@ namespace NMM
           hash.add(value);
         hash_law(material, hash);
       }
+      if (problem.has_varying_initial_stress())
+        for (unsigned int k = 0; k < covers.n_covers(); ++k)
+          for (const Material &material : problem.materials)
+          {
+            const auto stress = material.initial_stress_at(covers.node(k));
+            for (const unsigned int c : {0, 1, 2})
+              hash.add(stress.access_raw_entry(c));
+          }
       hash.add(static_cast<unsigned int>(problem.plane_state));
       return hash;
     }

@@ -97,7 +97,7 @@ namespace NMM
   }
 
 
-  StaticSystem::Vector
+  const StaticSystem::Vector &
   StaticSystem::assemble_residual(const Vector &u,
                                   const double  load_factor,
                                   const char   *where)
@@ -112,10 +112,17 @@ namespace NMM
   }
 
 
+  const StaticSystem::Vector &
+  StaticSystem::initial_forces(const Vector &u, const double load_factor)
+  {
+    return assemble_residual(u, load_factor, "the undeformed state");
+  }
+
+
   void
   StaticSystem::hold_initial_forces(const Vector &u)
   {
-    initial.forces = assemble_residual(u, 0., "the undeformed state");
+    initial.forces = initial_forces(u, 0.);
   }
 
 

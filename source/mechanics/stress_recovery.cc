@@ -367,7 +367,7 @@ namespace NMM
   StressRecovery::stress(const unsigned int      element,
                          const dealii::Point<2> &xi) const
   {
-    return field->stress_from_gradient(element, gradient(element, xi));
+    return field->stress_from_gradient(element, xi, gradient(element, xi));
   }
 
 

@@ -115,10 +115,11 @@ namespace NMM
       sample.recovered = law(element, xi, recovered);
       return sample;
     }
-    sample.direct.in_plane    = field->stress_from_gradient(element, direct);
-    sample.direct.zz          = stress_zz(element, direct);
-    sample.recovered.in_plane = field->stress_from_gradient(element, recovered);
-    sample.recovered.zz       = stress_zz(element, recovered);
+    sample.direct.in_plane = field->stress_from_gradient(element, xi, direct);
+    sample.direct.zz       = stress_zz(element, x, direct);
+    sample.recovered.in_plane =
+      field->stress_from_gradient(element, xi, recovered);
+    sample.recovered.zz = stress_zz(element, x, recovered);
     return sample;
   }
 
@@ -175,12 +176,13 @@ namespace NMM
 
   double
   FieldEvaluator::stress_zz(const unsigned int          element,
+                            const dealii::Point<2>     &x,
                             const dealii::Tensor<2, 2> &gradient) const
   {
     const unsigned int region =
       field->cover_system().manifold_mesh().region(element);
     return problem->materials[region_to_material[region]].out_of_plane_stress(
-      dealii::symmetrize(gradient), problem->plane_state);
+      dealii::symmetrize(gradient), problem->plane_state, x);
   }
 
 

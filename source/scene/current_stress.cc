@@ -23,11 +23,14 @@ namespace NMM
       finite_stress(const FiniteElasticity          &elasticity,
                     const std::vector<unsigned int> &region_to_material,
                     const unsigned int               element,
+                    const Point<2>                  &xi,
                     const Tensor<2, 2>              &H)
       {
         const ElasticityProblem &problem = elasticity.elasticity_problem();
-        const unsigned int       region =
-          elasticity.cover_system().manifold_mesh().region(element);
+        const ManifoldMesh &mesh   = elasticity.cover_system().manifold_mesh();
+        const unsigned int  region = mesh.region(element);
+        const Material     &material =
+          problem.materials[region_to_material[region]];
         FieldSample::Stress stress;
         if (elasticity.law(region).cauchy_stress(H, stress.in_plane) !=
             Deformation::admissible)
@@ -38,11 +41,23 @@ namespace NMM
             stress.in_plane[0][1] = stress.zz = nan;
           return stress;
         }
+        const Point<2> x =
+          mesh.mathematical_mesh().reference_to_real(mesh.cell(element), xi);
+        double stretch;
+        if (material.varying_initial_stress &&
+            elasticity.law(region).out_of_plane_stretch(H, stretch) ==
+              Deformation::admissible)
+        {
+          // The law has no initial stress: F S_0 F^T / (s det F) is added.
+          const Tensor<2, 2> F = deformation_gradient(H);
+          stress.in_plane +=
+            dealii::symmetrize(F * Tensor<2, 2>(material.initial_stress_at(x)) *
+                               dealii::transpose(F)) /
+            (stretch * dealii::determinant(F));
+        }
         if (problem.plane_state == PlaneState::plane_strain)
-          stress.zz =
-            problem.materials[region_to_material[region]].initial_stress_zz(
-              problem.plane_state) +
-            elasticity.law(region).plane_strain_stress(H);
+          stress.zz = material.initial_stress_zz_at(x, problem.plane_state) +
+                      elasticity.law(region).plane_strain_stress(H);
         return stress;
       }
 
@@ -119,13 +134,11 @@ namespace NMM
                 region_to_material =
                   elasticity.elasticity_problem().region_to_material(
                     elasticity.cover_system().manifold_mesh().physical_mesh())](
-                 const unsigned int element,
-                 const Point<2> &,
+                 const unsigned int  element,
+                 const Point<2>     &xi,
                  const Tensor<2, 2> &gradient) {
-          return finite_stress(elasticity,
-                               region_to_material,
-                               element,
-                               gradient);
+          return finite_stress(
+            elasticity, region_to_material, element, xi, gradient);
         };
       }
 
@@ -177,10 +190,12 @@ namespace NMM
             return elastic(element, xi, gradient);
           const Material &material =
             problem.materials[region_to_material[mesh.region(element)]];
-          const Stress strain = dealii::symmetrize(gradient);
-          return {material.initial_stress +
+          const Stress   strain = dealii::symmetrize(gradient);
+          const Point<2> x =
+            mesh.mathematical_mesh().reference_to_real(mesh.cell(element), xi);
+          return {material.initial_stress_at(x) +
                     material.elasticity_tensor(problem.plane_state) * strain,
-                  material.out_of_plane_stress(strain, problem.plane_state)};
+                  material.out_of_plane_stress(strain, problem.plane_state, x)};
         };
       }
 

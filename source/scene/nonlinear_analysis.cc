@@ -111,6 +111,9 @@ namespace NMM
     NonlinearAnalysis::run_newton()
     {
       const SceneParameters &parameters = scene.parameters();
+      if (problem.has_varying_initial_stress())
+        report_initial_balance(
+          StaticSystem(*solid).initial_forces(finite->initial_solution(), 1.));
       // The stiffness of materials that yield depends on the direction, as that of contact.
       NonlinearStatics statics(*solid,
                                inelastic_terms() == nullptr
@@ -200,6 +203,8 @@ namespace NMM
       double                 friction_work = 0.;
       const auto             after_step    = [&](const ContactStep &step,
                                   const Vector      &solution) {
+        if (history.empty())
+          report_initial_balance(statics.initial_forces());
         HistoryRow row;
         row.load_factor       = step.load_factor;
         row.n_iterations      = step.n_iterations;

@@ -84,8 +84,10 @@ namespace NMM
       const FractureParameters &fracture = scene.parameters().fracture;
       if (!fracture.intensity_factors)
         return;
+      // The functions of a tip cover have no part for an initial stress that varies.
       if (fracture.tips == FractureParameters::Tips::automatic &&
-          can_have_tip_covers())
+          can_have_tip_covers() && !problem.has_varying_initial_stress() &&
+          !scene.parameters().in_situ_stress.is_present)
         add_tip_covers(std::move(geometry));
       crack_tips = std::make_unique<CrackTips>(scene, *physical_mesh, problem);
     }
@@ -145,6 +147,10 @@ namespace NMM
       {
         Stage stage(progress, "cutting");
         cut();
+        if (scene.parameters().in_situ_stress.is_present)
+          set_in_situ_stress(scene.parameters().in_situ_stress,
+                             *manifold_mesh,
+                             problem);
         probes =
           std::make_unique<ProbePoints>(*manifold_mesh, parameters.probes);
       }
@@ -155,16 +161,18 @@ namespace NMM
       {
         Stage stage(progress, "quadrature");
         // The stiffness matrix needs the degree 2p - 2, and a constant body force p. A body force
-        // that varies is integrated with the accuracy of the mass matrix. The energy of finite
+        // or an initial stress that varies is integrated with the accuracy of the mass matrix. The energy of finite
         // strains needs 4p - 4: with less, the result depends on which points the rules of cut
         // elements have, and rounding may decide that.
         const unsigned int p = mathematical_mesh->degree();
         const bool         is_finite =
           parameters.model.kinematics == Kinematics::finite;
-        const unsigned int degree = std::max({is_finite ? 4 * p - 4 : 2 * p - 2,
-                                              p,
-                                              problem.body_force ? 2 * p : 0});
-        quadrature                = std::make_unique<QuadratureCollection>(
+        const unsigned int degree = std::max(
+          {is_finite ? 4 * p - 4 : 2 * p - 2,
+           p,
+           problem.body_force || problem.has_varying_initial_stress() ? 2 * p
+                                                                      : 0});
+        quadrature = std::make_unique<QuadratureCollection>(
           *manifold_mesh, degree, degree, covers->locally_owned_elements());
         check_load_values(*covers, *quadrature, problem);
       }
@@ -473,6 +481,50 @@ namespace NMM
     }
 
 
+    void
+    SceneAnalysis::report_initial_balance(
+      const dealii::TrilinosWrappers::MPI::Vector &forces)
+    {
+      if (!problem.has_varying_initial_stress() || forces.size() == 0)
+        return;
+      namespace MPI            = dealii::Utilities::MPI;
+      double           largest = 0.;
+      auto             here    = covers->locally_owned_dofs(2).begin();
+      dealii::Point<2> place;
+      for (unsigned int i = 0; i < forces.locally_owned_size();
+           i += 2, ++ ++here)
+      {
+        const double size =
+          std::hypot(forces(*here), forces(unknown_of(cover_of(*here), 1)));
+        if (size > largest)
+        {
+          largest = size;
+          place   = covers->node(cover_of(*here));
+        }
+      }
+      const auto all = MPI::min_max_avg(largest, communicator);
+      if (MPI::this_mpi_process(communicator) != all.max_index)
+        place = dealii::Point<2>();
+      for (unsigned int d = 0; d < 2; ++d)
+        place[d] = MPI::sum(place[d], communicator);
+      const auto region_to_material =
+        problem.region_to_material(*physical_mesh);
+      double weight = 0.;
+      for (unsigned int r = 0; r < region_to_material.size(); ++r)
+        weight += problem.gravity.norm() * physical_mesh->regions()[r].area *
+                  problem.materials[region_to_material[r]].density;
+      std::ostringstream text;
+      text.precision(3);
+      text << "  the largest force out of balance with the initial stress is "
+           << all.max << " per unit thickness, at " << to_string(place);
+      if (weight > 0.)
+        text << ", " << all.max / weight << " of the weight";
+      progress.message(text.str());
+      summary.add("initial_imbalance",
+                  weight > 0. ? all.max / weight : all.max);
+    }
+
+
     bool
     SceneAnalysis::is_first_rank() const
     {
@@ -492,14 +544,15 @@ namespace NMM
         const dealii::Quadrature<2> &rule = quadrature->rule(element);
         const double                 determinant =
           2. * mathematical_mesh->cell_area(manifold_mesh->cell(element));
-        const auto initial_stress =
-          field->stress_from_gradient(element, dealii::Tensor<2, 2>());
         for (unsigned int q = 0; q < rule.size(); ++q)
         {
           const auto gradient =
             field->gradient_of_covers(element, rule.point(q));
           const auto elastic_stress =
-            field->stress_from_gradient(element, gradient) - initial_stress;
+            field->stress_from_gradient(element, rule.point(q), gradient) -
+            field->stress_from_gradient(element,
+                                        rule.point(q),
+                                        dealii::Tensor<2, 2>());
           energy += 0.5 * determinant * rule.weight(q) *
                     (elastic_stress * dealii::symmetrize(gradient));
         }

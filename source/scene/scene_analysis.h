@@ -165,6 +165,12 @@ namespace NMM
       std::string
       checkpoint_file() const;
 
+      /// Tells the largest of the forces @p forces that are out of balance in the undeformed state
+      /// [N/m], on owned unknowns, if the initial stress varies or comes from weight. Collective.
+      void
+      report_initial_balance(
+        const dealii::TrilinosWrappers::MPI::Vector &forces);
+
       bool
       is_first_rank() const;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <scene/parsing.h>
 #include <set>
+#include <sstream>
 
 // This file has the parameters of the mathematical mesh and the solver. Those of the physics are in
 // scene_parameters_mechanics.cc, and those of the output in scene_parameters_output.cc.
@@ -358,6 +359,7 @@ namespace NMM
     for (const Material &material : materials)
       material.check(model.plane_state);
     check_gravity();
+    check_in_situ_stress();
     for (const BoundaryConditionParameters &condition : boundary_conditions)
       condition.check();
     // A start from equilibrium is a static analysis before a dynamic one.
@@ -395,10 +397,48 @@ namespace NMM
   }
 
 
+  void
+  SceneParameters::check_in_situ_stress() const
+  {
+    if (!in_situ_stress.is_present)
+    {
+      expect_defaults("In-situ stress",
+                      in_situ_stress,
+                      "a scene without in-situ stress",
+                      "remove it, or set 'Type = K0'");
+      return;
+    }
+    AssertThrow(model.gravity[0] == 0. && model.gravity[1] < 0.,
+                InputError("in-situ stress comes from weight, but gravity does "
+                           "not point downwards",
+                           "parameter 'Model/Gravity'",
+                           "give it a negative y component alone, such as "
+                           "'0, -9.81'"));
+    in_situ_stress.check(model.plane_state);
+    for (const Material &material : materials)
+      AssertThrow(!material.has_initial_stress(),
+                  InputError("the material has an initial stress beside the "
+                             "in-situ stress",
+                             "parameter 'Materials/" + material.name +
+                               "/Initial stress'",
+                             "remove one of them"));
+  }
+
+
   std::vector<std::string>
   SceneParameters::notices() const
   {
     std::vector<std::string> result;
+    if (in_situ_stress.is_present && !in_situ_stress.K0)
+      for (const Material &material : materials)
+      {
+        std::ostringstream text;
+        text.precision(6);
+        text << "in-situ stress: K0 of the material '" << material.name
+             << "' is that of elastic ground that was never strained sideways, "
+             << in_situ_stress.ratio(material, model.plane_state);
+        result.push_back(text.str());
+      }
     for (const Material &material : materials)
       if (model.gravity.norm() > 0. && material.density == 0.)
         result.push_back("gravity has no effect on the material '" +
@@ -481,7 +521,8 @@ namespace NMM
                              where + "/Toughness'",
                              "give the material's, > 0"));
       // The load factor of growth is computed by proportion, which initial stress does not allow.
-      AssertThrow(moves || material.initial_stress.norm() == 0.,
+      AssertThrow(moves || !(material.has_initial_stress() ||
+                             in_situ_stress.is_present),
                   InputError("cracks do not grow in a material with initial "
                              "stress, to which the load factor does not apply",
                              where + "/Initial stress'",

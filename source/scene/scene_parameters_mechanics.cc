@@ -2,11 +2,15 @@
 #include <nmm/materials/material.h>
 #include <nmm/scene/scene_parameters.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <cmath>
 #include <map>
 #include <optional>
+#include <scene/expression.h>
 #include <scene/law_entries.h>
 #include <scene/parsing.h>
+#include <sstream>
 
 // This file has the parameters of the physics: materials, model, loads and supports.
 namespace NMM
@@ -25,6 +29,8 @@ namespace NMM
     const Words<PlaneState> plane_states = {
       {"plane stress", PlaneState::plane_stress},
       {"plane strain", PlaneState::plane_strain}};
+
+    const Words<bool> in_situ_types = {{"none", false}, {"K0", true}};
 
     const LawEntries<MaterialLaw> &
     material_law_entries()
@@ -45,6 +51,109 @@ namespace NMM
       {"x, y", {{true, true}}},
       {"x", {{true, false}}},
       {"y", {{false, true}}}};
+
+
+    /// Reads 3 or 4 numbers separated by commas, or else expressions of x and y separated by
+    /// semicolons, into the initial stress of @p material. @throws InputError for another text.
+    void
+    read_initial_stress(const std::string &text, Material &material)
+    {
+      const std::string parameter =
+        "Materials/" + material.name + "/Initial stress";
+      const auto check_number = [&](const std::size_t n) {
+        AssertThrow(n == 3 || n == 4,
+                    InputError("'" + text + "' has " + std::to_string(n) +
+                                 " component(s) instead of 3 or 4",
+                               "parameter '" + parameter + "'",
+                               "give sxx, syy, sxy as numbers separated by "
+                               "commas, or as expressions of x and y separated "
+                               "by semicolons, and szz if it is needed"));
+      };
+      if (text.find(';') != std::string::npos)
+      {
+        const auto parts = dealii::Utilities::split_string_list(text, ';');
+        check_number(parts.size());
+        material.varying_initial_stress =
+          parse_expressions<2>(parts, "x,y", parameter);
+        return;
+      }
+      const auto parts = dealii::Utilities::split_string_list(text, ',');
+      check_number(parts.size());
+      std::vector<double> components;
+      for (const std::string &part : parts)
+      {
+        AssertThrow(Patterns::Double().match(part),
+                    InputError("'" + part + "' is no number",
+                               "parameter '" + parameter + "'",
+                               "give numbers separated by commas, or "
+                               "expressions of x and y separated by "
+                               "semicolons"));
+        components.push_back(dealii::Utilities::string_to_double(part));
+      }
+      material.initial_stress[0][0] = components[0];
+      material.initial_stress[1][1] = components[1];
+      material.initial_stress[0][1] = components[2];
+      if (components.size() == 4)
+        material.given_initial_stress_zz = components[3];
+    }
+
+
+    /// Reads a number; none if @p text is empty. @throws InputError.
+    std::optional<double>
+    read_optional(const std::string &text, const std::string &parameter)
+    {
+      if (text.empty())
+        return std::nullopt;
+      AssertThrow(Patterns::Double().match(text),
+                  InputError("'" + text + "' is no number",
+                             "parameter '" + parameter + "'",
+                             "give a number, or leave it empty"));
+      return dealii::Utilities::string_to_double(text);
+    }
+
+
+    std::string
+    text_of(const std::optional<double> &value)
+    {
+      return value ? to_text(*value) : "";
+    }
+
+
+    /// Reads one elevation, or points "x y" separated by commas. @throws InputError.
+    std::vector<dealii::Point<2>>
+    read_line(const std::string &text, const std::string &parameter)
+    {
+      std::vector<dealii::Point<2>> result;
+      for (const std::string &part :
+           dealii::Utilities::split_string_list(text, ','))
+      {
+        std::istringstream  words(part);
+        std::vector<double> numbers;
+        for (double number; words >> number;)
+          numbers.push_back(number);
+        const bool is_level = numbers.size() == 1 && part == text;
+        AssertThrow(words.eof() && (numbers.size() == 2 || is_level),
+                    InputError("'" + part + "' is no point of a line",
+                               "parameter '" + parameter + "'",
+                               "give one elevation, or points 'x y, x y' from "
+                               "left to right"));
+        result.push_back(is_level ? dealii::Point<2>(0., numbers[0])
+                                  : dealii::Point<2>(numbers[0], numbers[1]));
+      }
+      return result;
+    }
+
+
+    std::string
+    text_of(const std::vector<dealii::Point<2>> &line)
+    {
+      if (line.size() == 1 && line[0][0] == 0.)
+        return to_text(line[0][1]);
+      std::vector<std::string> points;
+      for (const dealii::Point<2> &x : line)
+        points.push_back(to_text(x[0]) + " " + to_text(x[1]));
+      return join(points);
+    }
 
 
     void
@@ -95,27 +204,63 @@ namespace NMM
     std::string law_name = material_law_entries().read(*material.law, values);
     material_law_entries().list(entries, law_name, values);
 
-    const auto         &stress     = material.initial_stress;
-    std::vector<double> components = {stress[0][0], stress[1][1], stress[0][1]};
+    const auto              &stress     = material.initial_stress;
+    std::vector<std::string> components = {to_text(stress[0][0]),
+                                           to_text(stress[1][1]),
+                                           to_text(stress[0][1])};
     if (material.given_initial_stress_zz)
-      components.push_back(*material.given_initial_stress_zz);
+      components.push_back(to_text(*material.given_initial_stress_zz));
+    std::string initial_stress = join(components);
     entries.add("Initial stress",
-                components,
-                Patterns::List(Patterns::Double(), 3, 4, ","),
+                initial_stress,
                 "sigma_xx, sigma_yy, sigma_xy before any load, tension "
                 "positive, and in plane strain sigma_zz; without it nu "
-                "(sigma_xx + sigma_yy) [Pa].");
+                "(sigma_xx + sigma_yy) [Pa]. Expressions of x and y, separated "
+                "by semicolons, for a stress that varies.");
     if (!entries.are_parsed())
       return;
     material_law_entries().check(law_name, values, [&](const std::string &key) {
       return "parameter 'Materials/" + material.name + "/" + key + "'";
     });
     material.law = material_law_entries().make(law_name, values);
-    material.initial_stress[0][0] = components[0];
-    material.initial_stress[1][1] = components[1];
-    material.initial_stress[0][1] = components[2];
-    if (components.size() == 4)
-      material.given_initial_stress_zz = components[3];
+    read_initial_stress(initial_stress, material);
+  }
+
+
+  void
+  InSituStressParameters::list_entries(Entries &entries)
+  {
+    entries.add("Type",
+                is_present,
+                in_situ_types,
+                "K0: materials begin with the stress of the weight above, "
+                "sigma_yy, and sigma_xx = K0 sigma_yy; none: with their "
+                "'Initial stress'.");
+    std::string ratio = text_of(K0), across = text_of(K0_out_of_plane),
+                line = text_of(ground_line);
+    entries.add("K0",
+                ratio,
+                "sigma_xx / sigma_yy [-]. Empty: nu / (1 - nu) of each "
+                "material, that of ground that was loaded without sideways "
+                "strain; in plane stress nu.");
+    entries.add("K0 out of plane",
+                across,
+                "sigma_zz / sigma_yy in plane strain [-]. Empty: K0.");
+    entries.add("Ground line",
+                line,
+                "Elevation y of the ground, or points 'x y, x y' of it from "
+                "left to right; what lies above it has no part in the stress "
+                "[m]. Empty: the upper surface of the solid.");
+    entries.add("Unit weight above",
+                unit_weight_above,
+                Patterns::Double(0),
+                "Unit weight of what lies between the solid and the ground "
+                "line [N/m^3].");
+    if (!entries.are_parsed())
+      return;
+    K0              = read_optional(ratio, "In-situ stress/K0");
+    K0_out_of_plane = read_optional(across, "In-situ stress/K0 out of plane");
+    ground_line     = read_line(line, "In-situ stress/Ground line");
   }
 
 

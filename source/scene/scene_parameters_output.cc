@@ -263,6 +263,7 @@ namespace NMM
                           });
     });
     entries.section("Model", &model);
+    entries.section("In-situ stress", &in_situ_stress);
     entries.section_of_subsections(
       "Boundary conditions",
       names.boundary_conditions,

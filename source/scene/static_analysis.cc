@@ -69,6 +69,7 @@ namespace NMM
         Stage stage(progress, "assembly");
         elasticity->assemble();
       }
+      report_initial_balance(elasticity->system_rhs());
       {
         Stage                    stage(progress, "solution");
         const LinearSolverReport report =

@@ -5,9 +5,11 @@
 #include <nmm/contact/diagnostics/locked_corners.h>
 #include <nmm/contact/law/law.h>
 #include <nmm/contact/surface/integration.h>
+#include <nmm/materials/material.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,8 +33,21 @@ namespace NMM
   {
     /// The edge that it touches; invalid_index if there is none.
     unsigned int mate = invalid_index;
-    /// Stress at both faces, tension positive [Pa].
-    dealii::SymmetricTensor<2, 2> stress;
+    /// Stress at both faces, tension positive [Pa]; where it varies, the uniform part.
+    dealii::SymmetricTensor<2, 2> stress = {};
+    /// Material::varying_initial_stress on both sides, whose mean is added; null: none.
+    std::array<std::shared_ptr<const dealii::Function<2>>, 2> varying = {};
+
+    /// The stress at @p x [Pa].
+    dealii::SymmetricTensor<2, 2>
+    at(const dealii::Point<2> &x) const
+    {
+      dealii::SymmetricTensor<2, 2> result = stress;
+      for (const auto &function : varying)
+        if (function)
+          result += 0.5 * stress_at(*function, x);
+      return result;
+    }
   };
 
 

@@ -166,14 +166,20 @@ namespace NMM
    * The integrand grows like r^(-1/2) for K. For T it grows like 1/r: in general sigma_11 has a
    * logarithm there, and it is another one in each region, so that T is not defined.
    *
-   * Material has no initial stress that varies within a region. A program gives such a stress
-   * sigma^0(x) by its equivalent loads, the body force f + div sigma^0 and the traction
-   * t - sigma^0 n on faces and boundaries, with the same displacements and the same factors.
+   * Where the initial stress varies within a region, @f$\sigma^0@f$ is its value at the tip, and D
+   * is the difference from it at x. Then sigma - D satisfies the equations above with the body
+   * force f + div D and the traction t - D n, so that I gets
+   * @f$-\int_A q\,D_{ij,j}a_{i,1} + \int q D_{ij}n_ja_{i,1}\,ds@f$ on faces and interfaces. By Gauss'
+   * theorem this is
+   * @f[ I_D = \int_A D_{ij}\,(q a_{i,1})_{,j}\,dA, @f]
+   * in which neither derivatives of the stress nor edges appear, so that it may also jump or kink in
+   * a region away from the tip. The integrand grows like r^(-1/2) for K and like 1/r for T, since D
+   * is 0 at the tip.
    *
    * In motion the inertia -rho d^2u/dt^2 is a part of the body force; at the tip it is left in the
    * part that varies. The factors are those of the crack as it stands still.
    *
-   * Limits: displacements are small, and initial stress is uniform in each region at the tip.
+   * Limits: displacements are small, and initial stress is continuous in each region at the tip.
    * Within the disk there is no inelastic strain, no viscous stress, and no curve but this crack
    * (CrackTip::free_radius) and interfaces through its tip between materials of the same elasticity
    * (has_intensity_factors()), where traction and displacement are continuous.

@@ -3,6 +3,7 @@
 
 #include <nmm/base/named_law.h>
 
+#include <deal.II/base/function.h>
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <limits>
@@ -81,6 +82,10 @@ namespace NMM
     /// nu times the sum of both normal components in the plane, which is the stress of a body
     /// that was never strained across the plane.
     std::optional<double> given_initial_stress_zz = std::nullopt;
+    /// Initial stress sigma_0(x) as a function of the place x [m] in the reference configuration,
+    /// with the components xx, yy, xy and, in plane strain, zz, which may be left out [Pa]. Then
+    /// both members above are not used, and must have their defaults. Null: it is uniform.
+    std::shared_ptr<const dealii::Function<2>> varying_initial_stress = nullptr;
 
     /// Checks all parameters, and those of the law. @throws InputError naming the material, the
     /// parameter and its value.
@@ -95,9 +100,22 @@ namespace NMM
     dealii::SymmetricTensor<4, 2>
     elasticity_tensor(PlaneState plane_state) const;
 
-    /// sigma_zz of the initial stress [Pa]; 0 in plane stress.
+    /// sigma_zz of the uniform initial stress [Pa]; 0 in plane stress.
     double
     initial_stress_zz(PlaneState plane_state) const;
+
+    /// Whether the initial stress is not 0 or varies.
+    bool
+    has_initial_stress() const;
+
+    /// Initial stress at @p x, in-plane components [Pa].
+    dealii::SymmetricTensor<2, 2>
+    initial_stress_at(const dealii::Point<2> &x) const;
+
+    /// sigma_zz of the initial stress at @p x [Pa]; 0 in plane stress.
+    double
+    initial_stress_zz_at(const dealii::Point<2> &x,
+                         PlaneState              plane_state) const;
 
     /// The law for large deformations; never null. @throws InputError if the material's law has
     /// none.
@@ -108,12 +126,18 @@ namespace NMM
     std::shared_ptr<const InelasticLaw>
     inelastic_law(PlaneState plane_state) const;
 
-    /// Hooke's sigma_zz for the in-plane strain @p strain, initial stress included [Pa]; 0 in
-    /// plane stress.
+    /// Hooke's sigma_zz for the in-plane strain @p strain, with the initial stress at @p x [Pa]; 0
+    /// in plane stress.
     double
     out_of_plane_stress(const dealii::SymmetricTensor<2, 2> &strain,
-                        PlaneState                           plane_state) const;
+                        PlaneState                           plane_state,
+                        const dealii::Point<2> &x = dealii::Point<2>()) const;
   };
+
+
+  /// The in-plane stress [Pa] whose components xx, yy, xy are the first ones of @p components.
+  dealii::SymmetricTensor<2, 2>
+  stress_at(const dealii::Function<2> &components, const dealii::Point<2> &x);
 
 
   /**

@@ -62,9 +62,10 @@ namespace NMM
     dealii::SymmetricTensor<2, 2>
     stress(unsigned int element, const dealii::Point<2> &xi) const;
 
-    /// The same stress for a given displacement gradient [Pa].
+    /// The same stress for a given displacement gradient there [Pa].
     dealii::SymmetricTensor<2, 2>
     stress_from_gradient(unsigned int                element,
+                         const dealii::Point<2>     &xi,
                          const dealii::Tensor<2, 2> &gradient) const;
 
     /// Value of a cover [m]: the displacement at its node. If the node lies outside of the solid,
@@ -89,6 +90,8 @@ namespace NMM
     std::vector<dealii::Tensor<1, 2>>          nodal_values;
     std::vector<PlaneElasticity>               region_to_elasticity;
     std::vector<dealii::SymmetricTensor<2, 2>> region_to_initial_stress;
+    /// Material::varying_initial_stress of each region; empty if there is none.
+    std::vector<std::shared_ptr<const dealii::Function<2>>> region_to_varying;
 
     std::vector<std::pair<const DiskCover *, dealii::Vector<double>>> disks;
     /// The disk that each region lies in, or invalid_index; empty if there are no disks.

@@ -169,6 +169,10 @@ namespace NMM
     std::vector<unsigned int>
     region_to_material(const PhysicalMesh &mesh) const;
 
+    /// Whether the initial stress of any material varies within it.
+    bool
+    has_varying_initial_stress() const;
+
     /// Check that values are valid and that the problem fits @p mesh.
     /// @throws InputError naming the value, also for an unknown material, a region without one, a
     /// condition on an unknown curve or on a curve that is no boundary, and a point outside of the

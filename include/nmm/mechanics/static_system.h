@@ -79,6 +79,11 @@ namespace NMM
              const Vector         *increment,
              const BlockSelection &blocks = {}) override;
 
+    /// The sum of all terms at the undeformed state @p u and the load factor @p load_factor: what is
+    /// out of balance there [N/m]. @throws NumericalFailure if it cannot be assembled.
+    const Vector &
+    initial_forces(const Vector &u, double load_factor);
+
     /// Let r_0 be the sum of all terms at the undeformed state @p u and the load factor 0.
     /// @throws NumericalFailure if it cannot be assembled.
     void
@@ -120,7 +125,7 @@ namespace NMM
       share(double load_factor) const;
     };
 
-    Vector
+    const Vector &
     assemble_residual(const Vector &u, double load_factor, const char *where);
 
     /// r_0 [N/m]; its forces are empty if nothing is held.

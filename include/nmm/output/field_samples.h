@@ -115,7 +115,9 @@ namespace NMM
     std::vector<bool> is_hidden;
 
     double
-    stress_zz(unsigned int element, const dealii::Tensor<2, 2> &gradient) const;
+    stress_zz(unsigned int                element,
+              const dealii::Point<2>     &x,
+              const dealii::Tensor<2, 2> &gradient) const;
   };
 
 

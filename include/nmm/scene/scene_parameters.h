@@ -5,6 +5,7 @@
 #include <nmm/covers/graded_mesh.h>
 #include <nmm/covers/mathematical_mesh.h>
 #include <nmm/mechanics/elasticity_problem.h>
+#include <nmm/mechanics/in_situ_stress.h>
 #include <nmm/mechanics/nonlinear_statics.h>
 #include <nmm/mechanics/static_elasticity.h>
 #include <nmm/output/probes.h>
@@ -85,6 +86,19 @@ namespace NMM
     /// parameter of the law that is out of range.
     static void
     list_entries(internal::Entries &entries, Material &material);
+  };
+
+
+  /// The section `In-situ stress`.
+  struct InSituStressParameters : InSituStress
+  {
+    /// Whether materials begin with the stress of their weight.
+    bool is_present = false;
+
+    /// Declares or reads the entries of the section. @throws InputError for a value that is out of
+    /// range or not used.
+    void
+    list_entries(internal::Entries &entries);
   };
 
 
@@ -372,6 +386,8 @@ namespace NMM
     std::vector<Material> materials;
     /// The section `Model`.
     ModelParameters model;
+    /// The section `In-situ stress`.
+    InSituStressParameters in_situ_stress;
     /// The subsections of `Boundary conditions`.
     std::vector<BoundaryConditionParameters> boundary_conditions;
     /// The subsections of `Point forces`.
@@ -468,6 +484,8 @@ namespace NMM
     check_fracture() const;
     void
     check_gravity() const;
+    void
+    check_in_situ_stress() const;
   };
 } // namespace NMM
 

@@ -244,6 +244,7 @@ namespace NMM
     StaticSystem       system;
     ContactEquilibrium search;
     NonlinearStatics   statics;
+    ForceTerm::Vector  initial_forces;
   };
 
 
@@ -312,7 +313,10 @@ namespace NMM
       d.contact->assemble(solution(), false);
       d.contact->accept();
       if (!d.contact->parameters().initial_stress.empty())
+      {
+        d.initial_forces = d.system.initial_forces(solution(), 1.);
         d.system.hold_initial_forces(solution());
+      }
     }
     std::vector<ContactStep> result;
     d.statics.run(steps, [&](const LoadStep &step, const Vector &u) {
@@ -332,6 +336,13 @@ namespace NMM
   ContactStatics::solution() const
   {
     return data->statics.solution();
+  }
+
+
+  const ContactStatics::Vector &
+  ContactStatics::initial_forces() const
+  {
+    return data->initial_forces;
   }
 
 

@@ -125,7 +125,7 @@ namespace NMM
       const ContactSurface::Place place =
         surface->reference_place(slave, fixed.s);
       const Tensor<1, 2> normal   = place.normal();
-      const Tensor<1, 2> traction = initial.stress * normal;
+      const Tensor<1, 2> traction = initial.at(place.x) * normal;
       fixed.initial_pressure      = -(traction * normal);
       fixed.initial_shear         = traction * place.a / place.a.norm();
     }

@@ -96,26 +96,30 @@ namespace NMM
     if (std::all_of(problem.materials.begin(),
                     problem.materials.end(),
                     [](const Material &material) {
-                      return material.initial_stress.norm() == 0.;
+                      return !material.has_initial_stress();
                     }))
       return {};
     const ManifoldMesh &mesh = surface.cover_system().manifold_mesh();
     const std::vector<unsigned int> region_to_material =
       problem.region_to_material(mesh.physical_mesh());
-    const auto &edges     = surface.edges();
-    const auto  stress_of = [&](const unsigned int e) {
+    const auto &edges    = surface.edges();
+    const auto  material = [&](const unsigned int e) -> const Material  &{
       return problem
-        .materials[region_to_material[mesh.region(edges[e].element)]]
-        .initial_stress;
+        .materials[region_to_material[mesh.region(edges[e].element)]];
     };
     const std::vector<unsigned int> mates = find_mates(surface);
     std::vector<InitialFaceStress>  result(edges.size());
     for (unsigned int e = 0; e < edges.size(); ++e)
       if (mates[e] != invalid_index)
+      {
+        const Material &here = material(e), &there = surface.is_rigid(mates[e])
+                                                       ? here
+                                                       : material(mates[e]);
         result[e] = {mates[e],
-                     surface.is_rigid(mates[e])
-                       ? stress_of(e)
-                       : 0.5 * (stress_of(e) + stress_of(mates[e]))};
+                     0.5 * (here.initial_stress + there.initial_stress),
+                     {{here.varying_initial_stress,
+                       there.varying_initial_stress}}};
+      }
     return result;
   }
 
@@ -133,14 +137,15 @@ namespace NMM
     std::map<std::pair<std::string, std::string>, ExceededStrength> found;
     for (unsigned int e = 0; e < parameters.initial_stress.size(); ++e)
     {
-      const unsigned int           mate   = parameters.initial_stress[e].mate;
-      const SymmetricTensor<2, 2> &stress = parameters.initial_stress[e].stress;
+      const unsigned int          mate  = parameters.initial_stress[e].mate;
+      const ContactSurface::Place place = surface.reference_place(e, 0.5);
+      const SymmetricTensor<2, 2> stress =
+        parameters.initial_stress[e].at(place.x);
       if (mate == invalid_index || stress.norm() == 0.)
         continue;
-      const ContactSurface::Place place  = surface.reference_place(e, 0.5);
-      const Tensor<1, 2>          normal = place.normal();
-      const ContactLaw           &law    = laws(e, mate);
-      ExceededStrength            here;
+      const Tensor<1, 2> normal = place.normal();
+      const ContactLaw  &law    = laws(e, mate);
+      ExceededStrength   here;
       here.place    = place.x;
       here.pressure = -(normal * (stress * normal));
       here.shear    = std::abs(place.a * (stress * normal)) / place.a.norm();

@@ -84,6 +84,11 @@ namespace NMM
     const Vector &
     solution() const;
 
+    /// Forces out of balance in the undeformed state with all loads [N/m], on owned unknowns. Empty
+    /// before run(), and if no faces begin with an initial stress.
+    const Vector &
+    initial_forces() const;
+
     /// The load step that was tried last, see NonlinearStatics::last_attempt().
     const LoadStep &
     last_attempt() const;

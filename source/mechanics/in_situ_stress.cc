@@ -218,13 +218,14 @@ namespace NMM
     double
     Overburden::vertical_stress(const Point<2> &x) const
     {
-      // Fractions of the width by which a vertical through the right end is moved into the solid, and
-      // of the unit weight below which there is a void.
+      // Fractions of the width by which verticals along the ends are moved into the solid, since
+      // vertical edges there are so only within rounding, and of the unit weight below which there is
+      // a void.
       constexpr double inwards = 1e-12, empty = 1e-9;
 
       const double margin = inwards * (largest - least);
       const auto   on_vertical =
-        crossings(std::min(std::max(x[0], least), largest - margin));
+        crossings(std::min(std::max(x[0], least + margin), largest - margin));
       const double top =
         ground.empty()
           ? (on_vertical.empty() ? x[1] : on_vertical.front().first)

@@ -108,9 +108,9 @@ TEST(VaryingInitialStress, OfConstantValueIsTheUniformOne)
                    (state == PlaneState::plane_strain ? " plane strain" : ""));
       auto law = material_law(c.law)->clone();
       for (const LawParameter &parameter : law->parameters())
-        if (parameter.name == "Cohesion")
+        if (parameter.key == "Cohesion")
           *parameter.value = 2.;
-        else if (parameter.name == "Friction angle")
+        else if (parameter.key == "Friction angle")
           *parameter.value = 0.5;
       const std::shared_ptr<const MaterialLaw> shared = std::move(law);
 
@@ -224,9 +224,9 @@ namespace
   {
     auto model = std::make_unique<Model>(
       parse_geometry(
-        "boundary name=rim material=rock POLYGON ((0 0, 10 0, 10 8, 0 8)); "
-        "hole name=tunnel CIRCLE (2 2, 1); "
-        "interface name=lens material=soil CIRCLE (6 5, 2); "
+        "boundary name=rim material=rock POLYGON ((0 0, 10 0, 10 8, 0 8))\n"
+        "hole name=tunnel CIRCLE (2 2, 1)\n"
+        "interface name=lens material=soil CIRCLE (6 5, 2)\n"
         "joint name=crack LINESTRING (-1 1, 11 7)",
         ""),
       mesh_parameters(1.1, {}, 9.),

@@ -42,6 +42,43 @@ namespace
   }
 
 
+  TEST(Scene, StressesOfExpressionsAndOfWeight)
+  {
+    const Scene     scene(base_scene,
+                      {"Materials/rock/Initial stress=x; if(y < 0, 1, 2); x*y",
+                           "Model/Plane state=plane strain"});
+    const auto      problem = scene.make_problem();
+    const Material &rock    = problem.materials[0];
+    EXPECT_EQ(rock.initial_stress.norm(), 0.);
+    const dealii::SymmetricTensor<2, 2> stress =
+      rock.initial_stress_at({3., -2.});
+    EXPECT_EQ(stress[0][0], 3.);
+    EXPECT_EQ(stress[1][1], 1.);
+    EXPECT_EQ(stress[0][1], -6.);
+    const Scene in_situ(base_scene,
+                        {"In-situ stress/Type=K0",
+                         "In-situ stress/K0=0.6",
+                         "In-situ stress/Ground line=0 1, 2 3.5",
+                         "In-situ stress/Unit weight above=20",
+                         "Model/Gravity=0, -9.81",
+                         "Materials/rock/Density=2"});
+    const auto &parameters = in_situ.parameters().in_situ_stress;
+    EXPECT_TRUE(parameters.is_present);
+    EXPECT_EQ(parameters.K0.value(), 0.6);
+    EXPECT_FALSE(parameters.K0_out_of_plane);
+    ASSERT_EQ(parameters.ground_line.size(), 2u);
+    EXPECT_EQ(parameters.ground_line[1], dealii::Point<2>(2., 3.5));
+    EXPECT_EQ(parameters.unit_weight_above, 20.);
+    const Scene level(base_scene,
+                      {"In-situ stress/Type=K0",
+                       "In-situ stress/Ground line=7",
+                       "Model/Gravity=0, -9.81",
+                       "Materials/rock/Density=2"});
+    ASSERT_EQ(level.parameters().in_situ_stress.ground_line.size(), 1u);
+    EXPECT_EQ(level.parameters().in_situ_stress.ground_line[0][1], 7.);
+  }
+
+
   TEST(Scene, ValuesArriveWhereTheyBelong)
   {
     const Scene             scene(base_scene,
@@ -63,6 +100,7 @@ namespace
     EXPECT_EQ(problem.materials[0].density, 5.);
     EXPECT_EQ(problem.materials[0].initial_stress[1][1], 2.);
     EXPECT_EQ(problem.materials[0].initial_stress[0][1], 3.);
+    EXPECT_EQ(problem.materials[0].varying_initial_stress, nullptr);
     EXPECT_EQ(problem.plane_state, PlaneState::plane_strain);
     EXPECT_EQ(problem.gravity[1], -9.81);
     ASSERT_TRUE(problem.body_force);

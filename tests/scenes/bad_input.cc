@@ -213,6 +213,51 @@ namespace
   }
 
 
+  TEST(BadInput, InitialStressThatVaries)
+  {
+    const std::string key = "Materials/rock/Initial stress";
+    expect_rejected_override(key + "=x; y", {key, "2 component(s)", "3 or 4"});
+    expect_rejected_override(key + "=1, 2, x", {key, "'x'", "semicolons"});
+    expect_rejected_override(key + "=x; y; t", {key, "no valid expression"});
+    expect_rejected_override(key + "=rand(); y; 0", {key, "rand()"});
+    expect_rejected_override(key + "=1/(x-x); y; 0",
+                             {"the initial stress", "1/(x-x)", "inf"});
+    expect_rejected_override(key + "=x; y; 0; 1", {"rock", "plane strain"});
+  }
+
+
+  TEST(BadInput, InSituStress)
+  {
+    const std::string section = "In-situ stress/";
+    expect_rejected_override(section + "K0=0.5", {section + "K0", "Type = K0"});
+    expect_rejected_override(section + "Type=K0",
+                             {"Model/Gravity", "downwards"});
+    const auto expect = [&](const std::string              &override,
+                            const std::vector<std::string> &words) {
+      SCOPED_TRACE(override);
+      expect_rejected({"--set",
+                       section + "Type=K0",
+                       "--set",
+                       "Model/Gravity=0, -9.81",
+                       "--set",
+                       "Materials/rock/Density=2000",
+                       "--set",
+                       override,
+                       base_scene},
+                      words);
+    };
+    expect(section + "K0=half", {section + "K0", "'half'", "number"});
+    expect(section + "K0=-1", {"K0 is -1", "not negative"});
+    expect(section + "K0 out of plane=1", {"plane stress", "plane strain"});
+    expect(section + "Unit weight above=1", {"ground line"});
+    expect(section + "Ground line=1 2 3", {section + "Ground line", "1 2 3"});
+    expect(section + "Ground line=0 1, 0 2", {"ground line", "ascending x"});
+    expect("Model/Gravity=1, -9.81", {"Model/Gravity", "downwards"});
+    expect("Materials/rock/Initial stress=1, 0, 0",
+           {"Materials/rock/Initial stress", "in-situ stress"});
+  }
+
+
   // The paper's scheme is a matter of a tutorial program.
   TEST(BadInput, IncrementalKinematics)
   {

@@ -203,6 +203,26 @@ namespace NMM
     }
 
 
+    bool
+    PointMaker::is_in_front(const unsigned int face,
+                            const unsigned int other,
+                            const unsigned int slave,
+                            const double       s,
+                            const double       other_s) const
+    {
+      if (other == invalid_index)
+        return false;
+      const auto &edges = surface->edges();
+      if (ends_near(face, search->slaves()[slave], s, other_s))
+        return true;
+      if (edges[other].body == edges[face].body)
+        return false;
+      const unsigned int nearest = search->face_at(slave, s);
+      return nearest != invalid_index &&
+             edges[nearest].body == edges[face].body;
+    }
+
+
     void
     PointMaker::add_points_of(const unsigned int slave, PointSet &made) const
     {
@@ -220,17 +240,16 @@ namespace NMM
           end.is_of_parts ? 0. : search->end_slack(slave, end, begin.s, last);
         const double length = end.s - begin.s;
         // Where a joint crosses others, corners of several bodies coincide, and that of the division
-        // may belong to a body behind the one that the piece touches.
+        // may belong to a body behind the one that the piece touches. So may the corner of a body
+        // behind a thin one, which divides the slave, but not the face that lies on it.
         const unsigned int between =
           first == invalid_index && last == invalid_index
             ? invalid_index
             : search->face_at(slave, begin.s + 0.5 * length);
         const bool is_known = between != invalid_index;
-        if (is_known && first != invalid_index &&
-            ends_near(between, edge, begin.s, end.s))
+        if (is_known && is_in_front(between, first, slave, begin.s, end.s))
           first = between;
-        if (is_known && last != invalid_index &&
-            ends_near(between, edge, end.s, begin.s))
+        if (is_known && is_in_front(between, last, slave, end.s, begin.s))
           last = between;
         for (unsigned int q = 0; q < rule_points.size(); ++q)
         {

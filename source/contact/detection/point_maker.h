@@ -101,6 +101,17 @@ namespace NMM
                 double       s,
                 double       other_s) const;
 
+      /// Whether at @p s of a slave, at the end of its piece to @p other_s, @p face is in front of the
+      /// face @p other, which the division there belongs to: it ends there as well, or it is nearer
+      /// and of another body. False if there is no other face. The slave is a position in
+      /// ContactSearch::slaves().
+      bool
+      is_in_front(unsigned int face,
+                  unsigned int other,
+                  unsigned int slave,
+                  double       s,
+                  double       other_s) const;
+
       const ContactSurface    *surface;
       const ContactSearch     *search;
       const ContactParameters *parameters;

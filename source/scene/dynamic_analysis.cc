@@ -351,7 +351,12 @@ namespace NMM
         line << "  damping: " << damping.stiffness
              << " s times the stiffness, since there is friction (set "
                 "'Time/Stiffness damping' for another)";
-        if (!has_start() && restart.empty())
+        if (!has_start() && restart.empty() &&
+            std::none_of(problem.materials.begin(),
+                         problem.materials.end(),
+                         [](const Material &material) {
+                           return material.has_initial_stress();
+                         }))
           line
             << "; loads act at once on blocks without stress, which may slip a "
                "little until they bear them ('Time/Start = equilibrium' begins "

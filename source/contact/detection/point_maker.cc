@@ -3,6 +3,7 @@
 #include <cmath>
 #include <contact/detection/corner_rules.h>
 #include <contact/detection/point_maker.h>
+#include <contact/detection/points.h>
 
 namespace NMM
 {
@@ -204,22 +205,40 @@ namespace NMM
 
 
     bool
-    PointMaker::is_in_front(const unsigned int face,
-                            const unsigned int other,
-                            const unsigned int slave,
-                            const double       s,
-                            const double       other_s) const
+    PointMaker::is_in_front(const unsigned int             face,
+                            const unsigned int             other,
+                            const unsigned int             slave,
+                            const ContactSearch::Division &division,
+                            const double                   other_s) const
     {
       if (other == invalid_index)
         return false;
-      const auto &edges = surface->edges();
-      if (ends_near(face, search->slaves()[slave], s, other_s))
+      const auto        &edges = surface->edges();
+      const unsigned int edge  = search->slaves()[slave],
+                         body  = edges[face].body;
+      if (ends_near(face, edge, division.s, other_s))
         return true;
-      if (edges[other].body == edges[face].body)
+      if (division.master == invalid_index || edges[other].body == body)
         return false;
-      const unsigned int nearest = search->face_at(slave, s);
-      return nearest != invalid_index &&
-             edges[nearest].body == edges[face].body;
+      const unsigned int nearest = search->face_at(slave, division.s);
+      if (nearest == invalid_index || edges[nearest].body != body ||
+          edges[nearest].radius != 0.)
+        return false;
+      // Blocks do not overlap where they are drawn, so that what lies behind the face there is no
+      // corner that has been pressed into it.
+      const auto depth = [](const auto &face_place, const auto &x) {
+        return (face_place.x - x) * face_place.normal();
+      };
+      const auto drawn =
+        surface->reference_place(division.master, division.end).x;
+      const double t = nearest_parameter(edges[nearest], drawn);
+      const bool   is_drawn =
+        t > 0. && t < 1. &&
+        depth(surface->reference_place(nearest, t), drawn) >
+          CornerRules::same_division * edges[nearest].length;
+      return depth(surface->place(nearest, 0.),
+                   surface->place(division.master, division.end).x) >
+             (is_drawn ? 0. : CornerRules::behind_division) * parameters->reach;
     }
 
 
@@ -247,9 +266,9 @@ namespace NMM
             ? invalid_index
             : search->face_at(slave, begin.s + 0.5 * length);
         const bool is_known = between != invalid_index;
-        if (is_known && is_in_front(between, first, slave, begin.s, end.s))
+        if (is_known && is_in_front(between, first, slave, begin, end.s))
           first = between;
-        if (is_known && is_in_front(between, last, slave, end.s, begin.s))
+        if (is_known && is_in_front(between, last, slave, end, begin.s))
           last = between;
         for (unsigned int q = 0; q < rule_points.size(); ++q)
         {

@@ -101,16 +101,16 @@ namespace NMM
                 double       s,
                 double       other_s) const;
 
-      /// Whether at @p s of a slave, at the end of its piece to @p other_s, @p face is in front of the
-      /// face @p other, which the division there belongs to: it ends there as well, or it is nearer
-      /// and of another body. False if there is no other face. The slave is a position in
-      /// ContactSearch::slaves().
+      /// Whether at a division of a slave, at the end of its piece to @p other_s, @p face is in front
+      /// of the face @p other, which the division belongs to: it ends there as well, or it is straight
+      /// and of another body, and the corner lies behind it, in the drawing as well or by more than springs are compressed.
+      /// False if there is no other face. The slave is a position in ContactSearch::slaves().
       bool
-      is_in_front(unsigned int face,
-                  unsigned int other,
-                  unsigned int slave,
-                  double       s,
-                  double       other_s) const;
+      is_in_front(unsigned int                   face,
+                  unsigned int                   other,
+                  unsigned int                   slave,
+                  const ContactSearch::Division &division,
+                  double                         other_s) const;
 
       const ContactSurface    *surface;
       const ContactSearch     *search;

@@ -1,4 +1,4 @@
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 
 #include <mechanics/initial_stress_terms.h>
 

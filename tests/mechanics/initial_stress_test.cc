@@ -1,7 +1,7 @@
 // Initial stress that varies, and the stress of weight.
 
 #include <nmm/base/exceptions.h>
-#include <nmm/materials/material_law.h>
+#include <nmm/materials/material.h>
 #include <nmm/mechanics/in_situ_stress.h>
 #include <nmm/mechanics/solid_term.h>
 

@@ -1,6 +1,8 @@
 #ifndef nmm_source_contact_assembly_point_sums_h
 #define nmm_source_contact_assembly_point_sums_h
 
+#include <nmm/contact/assembly/report.h>
+
 #include <cmath>
 #include <contact/assembly/point_terms.h>
 #include <contact/detection/point_maker.h>

@@ -218,27 +218,30 @@ namespace NMM
                          body  = edges[face].body;
       if (ends_near(face, edge, division.s, other_s))
         return true;
-      if (division.master == invalid_index || edges[other].body == body)
+      if (edges[other].body == body)
         return false;
       const unsigned int nearest = search->face_at(slave, division.s);
       if (nearest == invalid_index || edges[nearest].body != body ||
           edges[nearest].radius != 0.)
         return false;
+      if (division.master == invalid_index)
+        return true;
       // Blocks do not overlap where they are drawn, so that what lies behind the face there is no
       // corner that has been pressed into it.
       const auto depth = [](const auto &face_place, const auto &x) {
         return (face_place.x - x) * face_place.normal();
       };
-      const auto drawn =
+      const ContactSurface::Place at = surface->reference_place(nearest, 0.);
+      const auto                  drawn =
         surface->reference_place(division.master, division.end).x;
-      const double t = nearest_parameter(edges[nearest], drawn);
-      const bool   is_drawn =
-        t > 0. && t < 1. &&
-        depth(surface->reference_place(nearest, t), drawn) >
-          CornerRules::same_division * edges[nearest].length;
+      const double t = (drawn - at.x) * at.a / at.a.norm_square();
+      if (t > -CornerRules::beyond_division &&
+          t < 1. + CornerRules::beyond_division &&
+          depth(at, drawn) > -CornerRules::beyond_rounding * parameters->reach)
+        return true;
       return depth(surface->place(nearest, 0.),
                    surface->place(division.master, division.end).x) >
-             (is_drawn ? 0. : CornerRules::behind_division) * parameters->reach;
+             CornerRules::behind_division * parameters->reach;
     }
 
 

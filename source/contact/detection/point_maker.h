@@ -103,9 +103,9 @@ namespace NMM
 
       /// Whether at a division of a slave, at the end of its piece to @p other_s, @p face is in front
       /// of the face @p other, which the division belongs to: it ends there as well, or it is straight
-      /// and of another body, and the corner lies on or behind it in the drawing, or behind it by more than springs are
-      /// compressed.
-      /// False if there is no other face. The slave is a position in ContactSearch::slaves().
+      /// and of another body, and the corner lies on or behind it in the drawing, or behind it by more
+      /// than springs are compressed. False if there is no other face. The slave is a position in
+      /// ContactSearch::slaves().
       bool
       is_in_front(unsigned int                   face,
                   unsigned int                   other,

@@ -500,7 +500,6 @@ namespace
               Deformation::admissible);
     EXPECT_EQ(model.forces().sink, nullptr);
     EXPECT_EQ(model.forces().tangent, &body.elasticity->tangent());
-    EXPECT_EQ(model.blocks().terms.size(), 1u);
   }
 
 

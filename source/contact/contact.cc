@@ -319,12 +319,9 @@ namespace NMM
 
 
   void
-  Contact::Data::take_point(const unsigned int q,
-                            const bool         with_tangent,
-                            PointForces       &forces)
+  Contact::Data::take_point(const unsigned int q, PointForces &forces)
   {
-    const ContactPoint &point = points[q];
-    sums.add(point, point_data[q], forces, is_between());
+    sums.add(points[q], point_data[q], forces, is_between());
     if (!forces.has_forces)
       return;
     matrix.add(forces.local);
@@ -383,7 +380,6 @@ namespace NMM
       d.set_admitted_depth();
     d.matrix.begin_assembly(with_tangent);
     d.add_points(d.chosen_points(),
-                 with_tangent,
                  [&](const unsigned int q, Data::PointForces &forces) {
                    d.evaluate(q, with_tangent, forces);
                  });

@@ -181,12 +181,11 @@ namespace NMM
     template <typename Evaluate>
     void
     add_points(const std::vector<unsigned int> &numbers,
-               bool                             with_tangent,
                const Evaluate                  &evaluate);
 
     /// Add the forces of one point to the matrix, the residual and the report.
     void
-    take_point(unsigned int q, bool with_tangent, PointForces &forces);
+    take_point(unsigned int q, PointForces &forces);
 
     /// Forces and tangent of a point under its traction.
     void
@@ -422,7 +421,6 @@ namespace NMM
   template <typename Evaluate>
   void
   Contact::Data::add_points(const std::vector<unsigned int> &numbers,
-                            const bool                       with_tangent,
                             const Evaluate                  &evaluate)
   {
     internal::for_each_in_order<PointForces>(
@@ -432,7 +430,7 @@ namespace NMM
         evaluate(numbers[i], forces);
       },
       [&](const unsigned int i, PointForces &forces) {
-        take_point(numbers[i], with_tangent, forces);
+        take_point(numbers[i], forces);
       });
   }
 } // namespace NMM

@@ -570,7 +570,6 @@ namespace NMM
       d.matrix.couple_all();
     d.matrix.begin_assembly(with_tangent, body_matrix);
     d.add_points(d.step.near_points,
-                 with_tangent,
                  [&](const unsigned int q, Data::PointForces &forces) {
                    d.evaluate_between(q, with_tangent, forces);
                  });

@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/covers/point_location.h>
 #include <nmm/mechanics/in_situ_stress.h>
 
 #include <algorithm>
@@ -141,14 +142,9 @@ namespace NMM
       {
         const double sign   = edge.radius > 0. ? 1. : -1.;
         const double radius = std::abs(edge.radius);
-        const auto   angle  = [&](const Point<2> &x) {
-          return std::atan2(x[1] - edge.center[1], x[0] - edge.center[0]);
-        };
-        const double full  = 2. * dealii::numbers::PI;
-        const double first = angle(edge.start);
-        double       sweep = sign * (angle(edge.end) - first);
-        if (sweep <= 0.)
-          sweep += full;
+        const double full   = 2. * dealii::numbers::PI;
+        const double first  = angle_about(edge.center, edge.start);
+        const double sweep  = std::abs(swept_angle(edge));
         std::vector<std::pair<double, double>> turns;
         for (const double side : {1., -1.})
         {

@@ -134,9 +134,10 @@ namespace NMM
   {
     const std::string where =
       "the stage that begins at load factor " + std::to_string(begin);
-    double before = 0.;
+    // the least share of blocks removed earlier; blocks that go now begin with 0
+    double before = removed.empty() || !change.removed_blocks.empty() ? 0. : 1.;
     for (const Held &held : removed)
-      before = std::max(before, 1. - held.share(begin));
+      before = std::min(before, 1. - held.share(begin));
     AssertThrow(change.released >= before && change.released <= 1.,
                 InputError("the share of tractions that is released is " +
                              std::to_string(change.released),

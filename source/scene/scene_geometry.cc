@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iomanip>
 #include <scene/shapes.h>
+#include <set>
 #include <sstream>
 
 // This file makes the geometry of a scene: boundaries, joints and regions.
@@ -143,33 +144,25 @@ namespace NMM
   Scene::make_stages(const PhysicalMesh &mesh) const
   {
     std::vector<StageChange> result;
+    std::set<unsigned int>   gone;
     for (const StageParameters &stage : scene_parameters.stages)
     {
+      const auto &names = stage.removed_regions;
       StageChange change;
       change.released = stage.relaxation;
       for (const RegionParameters &region : scene_parameters.regions)
-        if (std::find(stage.removed_regions.begin(),
-                      stage.removed_regions.end(),
-                      region.name) != stage.removed_regions.end())
+        if (std::find(names.begin(), names.end(), region.name) != names.end())
           for (const unsigned int block :
                mesh.blocks_inside(make_region(region)))
-            if (std::none_of(
-                  result.begin(), result.end(), [&](const auto &one) {
-                    const auto &all = one.removed_blocks;
-                    return std::find(all.begin(), all.end(), block) !=
-                           all.end();
-                  }))
+            // regions may overlap
+            if (gone.insert(block).second)
               change.removed_blocks.push_back(block);
-      AssertThrow(
-        stage.removed_regions.empty() || !change.removed_blocks.empty(),
-        InputError("no block of the solid is inside the regions that "
-                   "the stage removes",
-                   "parameter 'Stages/" + stage.name + "/Remove regions'",
-                   "let their borders surround a part of the solid"));
-      std::sort(change.removed_blocks.begin(), change.removed_blocks.end());
-      change.removed_blocks.erase(std::unique(change.removed_blocks.begin(),
-                                              change.removed_blocks.end()),
-                                  change.removed_blocks.end());
+      AssertThrow(names.empty() || !change.removed_blocks.empty(),
+                  InputError("no block of the solid is inside the regions that "
+                             "the stage removes",
+                             "parameter 'Stages/" + stage.name +
+                               "/Remove regions'",
+                             "let their borders surround a part of the solid"));
       result.push_back(change);
     }
     return result;

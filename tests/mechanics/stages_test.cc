@@ -22,8 +22,9 @@ namespace
   /// core, which can be removed, and a ring.
   struct StressedDisk
   {
-    explicit StressedDisk(const Kinematics kinematics = Kinematics::small)
-      : model(geometry(), mesh_parameters(0.25, {}, 11.), 2)
+    explicit StressedDisk(const Kinematics   kinematics = Kinematics::small,
+                          const unsigned int n_cores    = 1)
+      : model(geometry(n_cores), mesh_parameters(0.25, {}, 11.), 2)
     {
       model.problem.plane_state = PlaneState::plane_strain;
       model.problem.materials   = {
@@ -42,8 +43,9 @@ namespace
       core = model.manifold_mesh.block(model.manifold_mesh.find_element({}));
     }
 
+    /// With a second, square core beside the first one if @p n_cores is 2.
     static Geometry
-    geometry()
+    geometry(const unsigned int n_cores)
     {
       Geometry result;
       result.add_circle({0., 0.}, outer, "rim", CurveRole::boundary);
@@ -57,7 +59,26 @@ namespace
                      CurvePiece::arc({-inner, 0.}, {-s, -s}, {0., -inner}),
                      CurvePiece::arc({0., -inner}, {s, -s}, {inner, 0.})};
       result.add(wall);
+      if (n_cores > 1)
+      {
+        Curve second;
+        second.name   = "second wall";
+        second.role   = CurveRole::joint;
+        second.state  = JointState::closed;
+        second.pieces = {CurvePiece::segment({1.5, -0.25}, {2., -0.25}),
+                         CurvePiece::segment({2., -0.25}, {2., 0.25}),
+                         CurvePiece::segment({2., 0.25}, {1.5, 0.25}),
+                         CurvePiece::segment({1.5, 0.25}, {1.5, -0.25})};
+        result.add(second);
+      }
       return result;
+    }
+
+    unsigned int
+    other_core() const
+    {
+      return model.manifold_mesh.block(
+        model.manifold_mesh.find_element({1.75, 0.}));
     }
 
     /// Go on to a load factor in one step.
@@ -175,6 +196,21 @@ namespace
     disk.go_to(1.);
     EXPECT_LT(disk.statics->solution().linfty_norm(),
               1e-13 * pressure / modulus_of_rock * outer);
+  }
+
+
+  // What an earlier stage has released completely stays so when nothing of a second core is released.
+  TEST(Stages, LaterBlocksAreReleasedOnTheirOwn)
+  {
+    StressedDisk disk(Kinematics::small, /* n_cores = */ 2);
+    disk.go_to(1.);
+    disk.stage({{disk.core}, 1.}, 2.);
+    const double once = disk.closure(1.);
+    disk.stage({{disk.other_core()}, 0.}, 3.);
+    // nothing of the second one is released, and Newton's method leaves 1e-9 of the forces
+    EXPECT_NEAR(disk.closure(1.), once, 1e-8 * once);
+    disk.stage({{}, 1.}, 4.);
+    EXPECT_GT(std::abs(disk.closure(1.) - once), 1e-3 * once);
   }
 
 

@@ -12,11 +12,7 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
-#include <algorithm>
-#include <array>
-#include <limits>
 #include <memory>
-#include <string>
 #include <vector>
 
 /**

@@ -21,7 +21,7 @@ namespace NMM
     /// Blocks (ManifoldMesh::block()) that are removed for good.
     std::vector<unsigned int> removed_blocks;
     /// Share of the tractions of all blocks removed so far that is released at the end of the stage,
-    /// from 0 to 1 [-]. It does not decrease from stage to stage.
+    /// from 0 to 1 [-]. Blocks of which more has been released before stay so: nothing is held again.
     double released = 1.;
   };
 
@@ -97,7 +97,7 @@ namespace NMM
     /// Begin a stage that takes the load factor from @p begin to @p end, at the equilibrium @p u of
     /// the stage before.
     /// @throws InputError for a block that does not exist or is gone already, and for a share that is
-    /// out of range or less than before. @throws NumericalFailure if forces cannot be assembled.
+    /// out of range, or that would change nothing since more of all blocks has been released. @throws NumericalFailure if forces cannot be assembled.
     void
     begin_stage(const StageChange &change,
                 const Vector      &u,
@@ -113,14 +113,15 @@ namespace NMM
     SolidTerm      *solid_term;
     MechanicalModel model;
     double          factor = 0., largest_factor = 0.;
-    /// Forces that are held, and the share of them at the begin and the end of a stage, between which
-    /// it changes linearly.
+    /// Forces of which a part still acts. This part changes linearly with the load factor, from
+    /// `at_begin` where the stage begins to `at_end` where it ends [-].
     struct Held
     {
       Vector forces;
       double begin = 0., end = 1.;
       double at_begin = 1., at_end = 0.;
 
+      /// The part that acts at a load factor [-].
       double
       share(double load_factor) const;
     };

@@ -146,6 +146,35 @@ namespace
   }
 
 
+  TEST(BadInput, Stages)
+  {
+    using Arguments      = std::vector<std::string>;
+    const Arguments pit  = {"Regions/Names=pit",
+                            "Regions/pit/Shape=CIRCLE (0.5 0.5, 0.2)"};
+    const Arguments used = pit + Arguments{"Regions/pit/Use=staged"};
+    const Arguments two  = used + Arguments{"Stages/Names=one, two",
+                                           "Stages/one/Remove regions=pit"};
+    expect_rejected_with(pit,
+                         "Regions/pit/Use=staged",
+                         {"'pit'", "Regions/pit/Use", "Stages"});
+    expect_rejected_with(two,
+                         "Stages/two/Remove regions=pit",
+                         {"'pit'", "second time", "'one'", "Stages/two"});
+    expect_rejected_with(two,
+                         "Stages/two/Remove regions=hole",
+                         {"'hole'", "Stages/two", "Use = staged"});
+    expect_rejected_with(two + Arguments{"Stages/one/Relaxation=0.5"},
+                         "Stages/two/Relaxation=0.2",
+                         {"0.2", "0.5", "not held again"});
+    expect_rejected_with(used + Arguments{"Stages/Names=one"},
+                         "Stages/one/Relaxation=0.5",
+                         {"Stages/one/Relaxation", "nothing has been removed"});
+    expect_rejected_with(two,
+                         "Load steps/Load factors=1, 0.5",
+                         {"Load factors", "ascend to 1"});
+  }
+
+
   TEST(BadInput, Regions)
   {
     const auto rejects = [](const std::string              &entry,

@@ -72,7 +72,13 @@ namespace NMM
     double smallest = std::numeric_limits<double>::infinity();
     for (const Curve &curve : mesh.curves())
     {
-      if (curve.role != CurveRole::hole || curve.pieces.empty())
+      if (curve.pieces.empty())
+        continue;
+      // What a tied joint surrounds can be excavated in a stage.
+      const bool may_become_hole = curve.role == CurveRole::joint &&
+                                   curve.state == JointState::closed &&
+                                   curve.is_closed();
+      if (curve.role != CurveRole::hole && !may_become_hole)
         continue;
       Point<2> lower = curve.pieces.front().start, upper = lower;
       for (const CurvePiece &piece : curve.pieces)

@@ -81,7 +81,8 @@ namespace NMM
     double diagonal,
     double smallest_hole = std::numeric_limits<double>::infinity());
 
-  /// Shorter side of the box around the smallest hole [m]; infinity if there is no hole.
+  /// Shorter side of the box around the smallest hole, or around what a tied joint surrounds, which may
+  /// be excavated [m]; infinity if there is neither.
   double
   smallest_hole(const PhysicalMesh &mesh);
 

@@ -242,9 +242,10 @@ namespace StepNMM3
       std::make_unique<NMM::ManifoldMesh>(*mathematical_mesh, *physical_mesh);
     cutting_time = timer.cpu_time();
 
-    // The surface comes before aggregation and constraints: it makes the covers
-    // of all faces relevant to every rank.
+    // Contact needs the covers of all faces on every rank, and so does what these depend on by
+    // aggregation.
     covers = std::make_unique<NMM::CoverSystem>(*manifold_mesh, MPI_COMM_WORLD);
+    covers->make_boundary_relevant();
     surface = std::make_unique<NMM::ContactSurface>(*covers,
                                                     std::move(setup.obstacles));
     const NMM::Aggregation aggregation = NMM::aggregate(*covers);

@@ -355,6 +355,7 @@ namespace StepNMM4
 
     covers =
       std::make_unique<NMM::CoverSystem>(*meshes.manifold_mesh, MPI_COMM_WORLD);
+    covers->make_boundary_relevant();
     surface = std::make_unique<NMM::ContactSurface>(*covers, make_obstacles());
     aggregation = NMM::aggregate(*covers);
     constraints = NMM::make_constraints(*covers, aggregation, 2);

@@ -207,6 +207,23 @@ namespace NMM
   }
 
 
+  void
+  CoverSystem::make_boundary_relevant()
+  {
+    std::vector<types::global_dof_index> relevant;
+    for (unsigned int e = 0; e < mesh->n_elements(); ++e)
+    {
+      const auto edges = mesh->edges(e);
+      if (std::any_of(edges.begin(), edges.end(), [](const ElementEdge &edge) {
+            return edge.curve_set != invalid_index;
+          }))
+        for (const unsigned int cover : covers(e))
+          relevant.push_back(cover);
+    }
+    make_relevant(std::move(relevant));
+  }
+
+
   const ManifoldMesh &
   CoverSystem::manifold_mesh() const
   {

@@ -137,51 +137,6 @@ namespace NMM
   }
 
 
-  std::vector<Tensor<1, 2>>
-  obstacle_forces(const ContactSurface            &surface,
-                  const std::vector<ContactPoint> &points)
-  {
-    const unsigned int  n     = surface.obstacles().size();
-    const unsigned int  first = surface.n_bodies() - n;
-    std::vector<double> sums(2 * n, 0.);
-    const auto          add = [&](const unsigned int  edge,
-                         const double        weight,
-                         const Tensor<1, 2> &traction) {
-      if (surface.is_rigid(edge))
-        for (unsigned int c = 0; c < 2; ++c)
-          sums[2 * (surface.edges()[edge].body - first) + c] +=
-            weight * traction[c];
-    };
-    for (const ContactPoint &point : points)
-      if (point.state != ContactState::open)
-      {
-        const Tensor<1, 2> traction =
-          traction_of(point.pressure, point.shear, point.normal);
-        // Obstacles can be slaves, too, since their corners carry contact points.
-        add(point.edge, point.weight, traction);
-        add(point.master, -point.weight, traction);
-      }
-    if (n > 0)
-      Parallel::sum(sums, communicator(surface), sums);
-    std::vector<Tensor<1, 2>> forces(n);
-    for (unsigned int i = 0; i < n; ++i)
-      forces[i] = Point<2>(sums[2 * i], sums[2 * i + 1]);
-    return forces;
-  }
-
-
-  double
-  largest_pressure(const ContactSurface            &surface,
-                   const std::vector<ContactPoint> &points)
-  {
-    double largest = 0.;
-    for (const ContactPoint &point : points)
-      if (point.state != ContactState::open && point.weight != 0.)
-        largest = std::max(largest, point.pressure);
-    return Parallel::max(largest, communicator(surface));
-  }
-
-
   void
   add_contact(const ContactSurface             &surface,
               const std::vector<ContactSample> &points,

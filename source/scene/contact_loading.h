@@ -1,10 +1,8 @@
 #ifndef nmm_source_scene_contact_loading_h
 #define nmm_source_scene_contact_loading_h
 
-#include <nmm/mechanics/solid_term.h>
-#include <nmm/quadrature/element_quadrature.h>
+#include <nmm/analysis/equilibrium.h>
 
-#include <memory>
 #include <scene/contact_analysis.h>
 
 namespace NMM
@@ -41,13 +39,11 @@ namespace NMM
     public:
       using Vector = LoadingState::Vector;
 
-      ContactLoading(const Scene                             &scene,
-                     const CoverSystem                       &covers,
-                     const QuadratureCollection              &quadrature,
-                     const dealii::AffineConstraints<double> &constraints,
-                     const ElasticityProblem                 &problem,
-                     ContactAnalysis                         &contact,
-                     Progress                                &progress);
+      ContactLoading(const Scene             &scene,
+                     const Solid             &solid,
+                     const ElasticityProblem &problem,
+                     ContactAnalysis         &contact,
+                     Progress                &progress);
 
       /// Makes the loading begin with @p carried. The solution at its load factor, once it was
       /// asked for, takes its place.
@@ -65,26 +61,17 @@ namespace NMM
       state() const;
 
     private:
-      const Scene                &scene;
-      const CoverSystem          &covers;
-      const QuadratureCollection &quadrature;
-      const ElasticityProblem    &problem;
-      ContactAnalysis            &contact;
-      Progress                   &progress;
-      FiniteElasticity            elasticity;
-      std::unique_ptr<SolidTerm>  solid;
+      const Scene     &scene;
+      const Solid     &solid;
+      ContactAnalysis &contact;
+      Equilibrium      equilibrium;
       /// The state with which the loading begins.
       LoadingState first;
-      /// The present loading; null if none has begun.
-      std::unique_ptr<ContactStatics> loading;
-      /// The last load factor [-], and the energy that friction has dissipated so far [J/m].
-      double reached = 0., friction_work = 0.;
+      /// Whether the loading has begun.
+      bool has_begun = false;
 
       void
       begin_anew();
-
-      void
-      load(const LoadSteps &steps);
     };
   } // namespace internal
 } // namespace NMM

@@ -38,7 +38,7 @@ namespace NMM
         return;
       }
       contact_loading = std::make_unique<ContactLoading>(
-        scene, *covers, *quadrature, constraints, problem, *contact, progress);
+        scene, *solid, problem, *contact, progress);
       if (former)
       {
         contact->continue_from(
@@ -48,7 +48,7 @@ namespace NMM
       else if (is_restart && earlier_path->carried_factor > 0.)
       {
         carried = {earlier_path->carried_factor,
-                   LoadingState::Vector(covers->locally_owned_dofs(2),
+                   LoadingState::Vector(solid->covers().locally_owned_dofs(2),
                                         communicator),
                    earlier_path->history,
                    earlier_path->friction_work};
@@ -66,12 +66,14 @@ namespace NMM
     LoadingState
     CrackGrowthAnalysis::carry_over() const
     {
-      const auto &[solid, state] = *former;
+      const auto &[before, state] = *former;
       return {state.load_factor,
-              CarriedCovers(*solid.covers, *covers, *quadrature)
+              CarriedCovers(before.solid->covers(),
+                            solid->covers(),
+                            solid->quadrature())
                 .carry(state.displacement),
               carry_history(state.history,
-                            solid.contact->faces(),
+                            before.contact->faces(),
                             contact->faces(),
                             contact->contact().parameters().slave_priority),
               state.friction_work};
@@ -108,7 +110,7 @@ namespace NMM
     std::uint64_t
     CrackGrowthAnalysis::fingerprint() const
     {
-      Hash hash = hash_of_solid(*covers, problem);
+      Hash hash = hash_of_solid(solid->covers(), problem);
       for (const Material &material : problem.materials)
       {
         hash.add(material.toughness);
@@ -303,7 +305,7 @@ namespace NMM
                      increments,
                      parameters,
                      problem,
-                     *covers,
+                     solid->covers(),
                      [this](const unsigned int      element,
                             const dealii::Point<2> &xi) {
                        return field->stress(element, xi);
@@ -338,7 +340,7 @@ namespace NMM
       state.load_factor   = load_factor;
       state.crack_length  = increments.grown_length();
       state.strain_energy = scale * scale * small_strain_energy();
-      const auto samples  = probes->evaluate(*covers, *evaluator);
+      const auto samples  = probes->evaluate(solid->covers(), *evaluator);
       for (unsigned int i = 0; i < samples.size(); ++i)
         if (!scene.parameters().probes[probes->entries()[i].probe].is_line)
           for (unsigned int c = 0; c < 2; ++c)

@@ -1,13 +1,12 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/stop.h>
 #include <nmm/dynamics/checkpoint.h>
-#include <nmm/mechanics/mass_matrix.h>
 
 #include <algorithm>
+#include <analysis/mechanism.h>
 #include <cmath>
 #include <scene/dynamic_analysis.h>
 #include <scene/fastest_turn.h>
-#include <scene/mechanism.h>
 #include <scene/static_start.h>
 #include <scene/time_function.h>
 #include <sstream>
@@ -79,30 +78,24 @@ namespace NMM
       recovery.reset();
       field.reset();
       leaving.reset();
-      integrator.reset();
-      mechanics.reset();
-      contact_term.reset();
-      model.reset();
-      elasticity.reset();
-      mass_quadrature.reset();
+      motion.reset();
     }
 
 
     void
     DynamicAnalysis::make_system()
     {
-      Stage              system_stage(progress, "masses");
-      const unsigned int degree = 2 * mathematical_mesh->degree();
-      mass_quadrature           = std::make_unique<QuadratureCollection>(
-        *manifold_mesh, degree, degree, covers->locally_owned_elements());
+      Stage system_stage(progress, "masses");
       make_integrator();
       if (probe_history)
       {
         // A solid that is cut again goes on from the state that it was in.
-        probe_history->follow(*covers, *probes, scene.parameters().probes);
+        probe_history->follow(solid->covers(),
+                              *probes,
+                              scene.parameters().probes);
         return;
       }
-      probe_history = std::make_unique<ProbeHistory>(*covers,
+      probe_history = std::make_unique<ProbeHistory>(solid->covers(),
                                                      *probes,
                                                      scene.parameters().probes);
       set_first_state();
@@ -113,35 +106,24 @@ namespace NMM
     DynamicAnalysis::make_integrator()
     {
       const SceneParameters &parameters = scene.parameters();
-      const Kinematics       kinematics = parameters.model.kinematics;
-      loading                           = scene.make_loading();
-
-      elasticity = std::make_unique<FiniteElasticity>(
-        *covers, *quadrature, constraints, problem, /* may_float = */ true);
-      const auto mass = make_mass_matrix(*elasticity, *mass_quadrature);
-      model           = make_solid(*elasticity, kinematics, loading, mass);
-
-      const TimeScheme scheme =
-        parameters.time.time_scheme(kind, kinematics, contact != nullptr);
-      std::vector<ForceTerm *> terms = {model.get()};
-      if (contact)
-      {
-        contact_term = std::make_unique<AccountedContact>(
-          model->layout(),
-          *contact,
-          kind == Analysis::relaxation ? update_in_relaxation(scheme)
-                                       : ContactUpdate::every_iteration);
-        contact_term->append_to(terms);
-      }
-      mechanics = std::make_unique<MechanicalModel>(model->layout(), terms);
+      MotionParameters       how;
+      how.kinematics = parameters.model.kinematics;
+      how.scheme =
+        parameters.time.time_scheme(kind, how.kinematics, contact != nullptr);
+      how.loading = scene.make_loading();
+      if (kind == Analysis::relaxation)
+        how.contact_update = update_in_relaxation(how.scheme);
       damping =
         scene.make_damping(*physical_mesh, problem, contact && has_friction());
-      model->damp(damping, scheme.is_conserving);
-      integrator = std::make_unique<TimeIntegrator>(
-        *mechanics, scheme, motion_newton_parameters(scene, progress));
+      how.damping = damping;
+      how.newton  = motion_newton_parameters(scene, progress);
+      motion      = std::make_unique<Motion>(*solid,
+                                        problem,
+                                        std::move(how),
+                                        contact.get());
       make_leaving();
       if (parameters.time.sleep.speed > 0.)
-        integrator->let_blocks_sleep(parameters.time.sleep);
+        motion->integrator().let_blocks_sleep(parameters.time.sleep);
     }
 
 
@@ -154,13 +136,13 @@ namespace NMM
         if (contact)
           contact->hold_obstacles(true);
         make_relaxation();
-        Checkpoint::read(restart, relaxing->integrator());
+        Checkpoint::read(restart, relaxing->motion.integrator());
         relaxing->continued_step = earlier_part->next_step_of_start;
         return;
       }
       if (!restart.empty())
       {
-        Checkpoint::read(restart, *integrator);
+        Checkpoint::read(restart, motion->integrator());
         // A run that was killed before it wrote its final results can have reached the end time.
         AssertThrow(time() <= parameters.time.end_time * (1. + 1e-12),
                     InputError("the checkpoint '" + restart +
@@ -173,8 +155,7 @@ namespace NMM
       }
       else if (!parameters.initial_velocities.empty())
       {
-        const Vector rest(model->layout().locally_owned, communicator);
-        integrator->initialize(rest, initial_velocity());
+        motion->integrator().initialize(motion->zero(), initial_velocity());
       }
       start_time = time();
     }
@@ -183,7 +164,7 @@ namespace NMM
     InelasticTerms *
     DynamicAnalysis::inelastic_terms() const
     {
-      return model ? model->inelastic_terms() : nullptr;
+      return motion ? motion->solid_term().inelastic_terms() : nullptr;
     }
 
 
@@ -210,14 +191,14 @@ namespace NMM
         if (parameters.block)
         {
           const unsigned int element =
-            manifold_mesh->find_element(*parameters.block);
+            solid->manifold_mesh().find_element(*parameters.block);
           AssertThrow(element != invalid_index,
                       InputError("the point " + to_string(*parameters.block) +
                                    " lies in no block",
                                  "parameter 'Initial velocities/" +
                                    parameters.name + "/Block'",
                                  "give a point inside the block that moves"));
-          block = manifold_mesh->block(element);
+          block = solid->manifold_mesh().block(element);
         }
         motions.push_back(
           {block,
@@ -225,14 +206,17 @@ namespace NMM
             parameters.angular_velocity,
             parameters.center ? *parameters.center : centroid(block)}});
       }
-      return interpolate_velocity(
-        *covers, constraints, [&](const Point<2> &x, const unsigned int block) {
-          Tensor<1, 2> v;
-          for (const Motion &motion : motions)
-            if (motion.block == invalid_index || motion.block == block)
-              v += motion.velocity(x);
-          return v;
-        });
+      return interpolate_velocity(solid->covers(),
+                                  solid->constraints(),
+                                  [&](const Point<2>    &x,
+                                      const unsigned int block) {
+                                    Tensor<1, 2> v;
+                                    for (const Motion &motion : motions)
+                                      if (motion.block == invalid_index ||
+                                          motion.block == block)
+                                        v += motion.velocity(x);
+                                    return v;
+                                  });
     }
 
 
@@ -241,17 +225,18 @@ namespace NMM
     {
       // The entries are the area and its first moments.
       std::vector<double> local(3, 0.), sums(3);
-      const auto [first, last] = covers->locally_owned_elements();
+      const auto [first, last] = solid->covers().locally_owned_elements();
       for (unsigned int element = first; element < last; ++element)
-        if (block == invalid_index || manifold_mesh->block(element) == block)
+        if (block == invalid_index ||
+            solid->manifold_mesh().block(element) == block)
         {
-          const dealii::Quadrature<2> &rule = quadrature->rule(element);
-          const unsigned int           cell = manifold_mesh->cell(element);
-          const double area = mathematical_mesh->cell_area(cell);
+          const dealii::Quadrature<2> &rule = solid->quadrature().rule(element);
+          const unsigned int cell = solid->manifold_mesh().cell(element);
+          const double       area = solid->mathematical_mesh().cell_area(cell);
           for (unsigned int q = 0; q < rule.size(); ++q)
           {
             const Point<2> x =
-              mathematical_mesh->reference_to_real(cell, rule.point(q));
+              solid->mathematical_mesh().reference_to_real(cell, rule.point(q));
             local[0] += rule.weight(q) * area;
             local[1] += rule.weight(q) * area * x[0];
             local[2] += rule.weight(q) * area * x[1];
@@ -282,14 +267,7 @@ namespace NMM
     StartInput
     DynamicAnalysis::start_input()
     {
-      return {scene,
-              *covers,
-              *quadrature,
-              *mass_quadrature,
-              constraints,
-              problem,
-              contact.get(),
-              progress};
+      return {scene, *solid, problem, contact.get(), progress};
     }
 
 
@@ -298,10 +276,10 @@ namespace NMM
     {
       relaxing              = std::make_unique<StartRelaxation>(start_input());
       relaxing->before_step = [this](const double length) {
-        const unsigned int step    = relaxing->integrator().state().step;
+        const unsigned int step    = relaxing->motion.integrator().state().step;
         const bool         is_last = is_asked_to_stop(communicator);
         if (is_last || (step > 0 && is_checkpoint_due(step)))
-          Checkpoint::write(relaxing->integrator(),
+          Checkpoint::write(relaxing->motion.integrator(),
                             checkpoint_file(),
                             part_to_save(length));
         if (is_last)
@@ -313,7 +291,7 @@ namespace NMM
     void
     DynamicAnalysis::run_start()
     {
-      last_good = integrator->state();
+      last_good = motion->integrator().state();
       // The checkpoint is that of the relaxation, not of the undeformed solid.
       can_be_saved = false;
       if (contact)
@@ -328,12 +306,12 @@ namespace NMM
         contact->hold_obstacles(false);
       if (InelasticTerms *const terms = inelastic_terms())
         terms->restore_internal_state(start.material_state);
-      Vector v(model->layout().locally_owned, communicator);
+      Vector v = motion->zero();
       if (!scene.parameters().initial_velocities.empty())
         v = initial_velocity();
       // This applies the releases at 0 s.
-      integrator->initialize(u, v);
-      last_good    = integrator->state();
+      motion->integrator().initialize(u, v);
+      last_good    = motion->integrator().state();
       can_be_saved = true;
       write_first_state();
       if (scene.parameters().output.checkpoint_every > 0)
@@ -430,8 +408,9 @@ namespace NMM
           scene.parameters().model.kinematics != Kinematics::finite)
         return;
       Vector v(displacement());
-      v                         = velocity();
-      const FastestTurn fastest = find_fastest_turn(*covers, displacement(), v);
+      v = velocity();
+      const FastestTurn fastest =
+        find_fastest_turn(solid->covers(), displacement(), v);
       if (fastest.rate * length <= large)
         return;
       has_warned_of_turns = true;
@@ -451,7 +430,7 @@ namespace NMM
     void
     DynamicAnalysis::recover()
     {
-      integrator->restore(last_good);
+      motion->integrator().restore(last_good);
       // If the end of a step was being checked, the contact history is that of a refused state,
       // from which a run must not continue.
       if (kind == Analysis::dynamics && can_be_saved)
@@ -469,14 +448,15 @@ namespace NMM
         n_cuts += record.n_cuts;
         n_lost_iterations += record.n_lost_iterations;
       };
-      last_good = integrator->state();
+      last_good = motion->integrator().state();
       note_energies();
       if (growth)
         continue_growth();
       try
       {
         grow();
-        while (control.advance(*integrator, parameters.end_time, record))
+        while (
+          control.advance(motion->integrator(), parameters.end_time, record))
         {
           count_lost();
           after_step(record);
@@ -496,30 +476,34 @@ namespace NMM
     void
     DynamicAnalysis::run_relaxation()
     {
-      last_good = integrator->state();
+      last_good = motion->integrator().state();
       // Amplitudes are those of prescribed displacements, which grow first.
       const double settled =
-        loading.amplitudes
+        motion->parameters().loading.amplitudes
           ? ramp_time(scene.parameters().relaxation.relaxation.step)
           : 0.;
       const RelaxationParameters parameters =
         scene.parameters().relaxation.bounded(
-          covers->manifold_mesh().physical_mesh());
+          solid->covers().manifold_mesh().physical_mesh());
       do
       {
-        const Vector begin = integrator->state().u;
-        relaxation =
-          relax(*integrator, parameters, [&](const StepRecord &record) {
-            n_cuts += record.n_cuts;
-            n_lost_iterations += record.n_lost_iterations;
-            after_step(record);
-          });
+        const Vector begin = motion->integrator().state().u;
+        relaxation         = relax(motion->integrator(),
+                           parameters,
+                           [&](const StepRecord &record) {
+                             n_cuts += record.n_cuts;
+                             n_lost_iterations += record.n_lost_iterations;
+                             after_step(record);
+                           });
         if (relaxation.moves_away)
-          refuse_motion(
-            *covers, problem, *quadrature, begin, integrator->state().u);
+          refuse_motion(solid->covers(),
+                        problem,
+                        solid->quadrature(),
+                        begin,
+                        motion->integrator().state().u);
         // Those of the last step are of the solid before it was stopped.
         compute_tips_in_motion();
-      } while (grow() || integrator->state().closing.act_at(time()) ||
+      } while (grow() || motion->integrator().state().closing.act_at(time()) ||
                time() < settled);
     }
 
@@ -527,32 +511,28 @@ namespace NMM
     double
     DynamicAnalysis::time() const
     {
-      return integrator->state().time;
+      return motion->integrator().state().time;
     }
 
 
     unsigned int
     DynamicAnalysis::step_number() const
     {
-      return integrator->state().step;
+      return motion->integrator().state().step;
     }
 
 
     const DynamicAnalysis::Vector &
     DynamicAnalysis::velocity() const
     {
-      return integrator->state().v;
+      return motion->integrator().state().v;
     }
 
 
     DynamicAnalysis::Vector
     DynamicAnalysis::displacement() const
     {
-      Vector relevant(model->layout().locally_owned,
-                      model->layout().locally_relevant,
-                      communicator);
-      relevant = integrator->state().u;
-      return relevant;
+      return motion->displacement();
     }
   } // namespace internal
 } // namespace NMM

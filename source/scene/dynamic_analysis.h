@@ -1,10 +1,9 @@
 #ifndef nmm_source_scene_dynamic_analysis_h
 #define nmm_source_scene_dynamic_analysis_h
 
-#include <nmm/contact/state/history.h>
+#include <nmm/analysis/motion.h>
 #include <nmm/dynamics/leaving_blocks.h>
 #include <nmm/dynamics/relaxation.h>
-#include <nmm/mechanics/solid_term.h>
 #include <nmm/output/csv_series.h>
 
 #include <memory>
@@ -67,15 +66,7 @@ namespace NMM
 
       Analysis kind;
 
-      // Each object refers to those above it.
-      std::unique_ptr<QuadratureCollection> mass_quadrature;
-      /// Loads and supports as functions of time.
-      Loading                           loading;
-      std::unique_ptr<FiniteElasticity> elasticity;
-      std::unique_ptr<SolidTerm>        model;
-      std::unique_ptr<AccountedContact> contact_term;
-      std::unique_ptr<MechanicalModel>  mechanics;
-      std::unique_ptr<TimeIntegrator>   integrator;
+      std::unique_ptr<Motion> motion;
       /// The damping, with the coefficients that Scene::make_damping() chooses.
       RayleighDamping damping;
       /// Null if no block may leave the scene.

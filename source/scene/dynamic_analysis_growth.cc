@@ -85,7 +85,7 @@ namespace NMM
                      growth->table(),
                      fracture,
                      problem,
-                     *covers,
+                     solid->covers(),
                      stress_in_material_axes());
       std::vector<GrowingTip> tips =
         growth->find_growing_tips(std::move(judged), time());
@@ -119,16 +119,16 @@ namespace NMM
     DynamicAnalysis::cut_anew(const Geometry &grown, const double duration)
     {
       can_be_saved = false;
-      integrator->balance_accelerations();
+      motion->integrator().balance_accelerations();
       FormerState former;
-      former.state  = integrator->state();
-      former.energy = integrator->account().kinetic +
-                      integrator->account().strain +
-                      integrator->account().conditions;
+      former.state  = motion->integrator().state();
+      former.energy = motion->integrator().account().kinetic +
+                      motion->integrator().account().strain +
+                      motion->integrator().account().conditions;
       if (contact)
       {
         former.history       = contact->contact().history();
-        former.friction_work = contact_term->friction_work();
+        former.friction_work = motion->contact_account()->friction_work();
       }
       // The solid remains until its state is carried over; what else refers to it does not.
       clear_equations();
@@ -168,7 +168,9 @@ namespace NMM
     DynamicAnalysis::carry_over(const FormerState &former,
                                 const double       duration)
     {
-      const CarriedCovers carried(*former.solid.covers, *covers, *quadrature);
+      const CarriedCovers carried(former.solid.solid->covers(),
+                                  solid->covers(),
+                                  solid->quadrature());
       DynamicState        state = former.state;
       for (Vector *vector : {&state.u, &state.v, &state.a})
         *vector = carried.carry(*vector);
@@ -182,25 +184,25 @@ namespace NMM
       {
         contact->continue_from(
           former.solid.contact->largest_penetration_so_far());
-        contact_term->continue_from(
+        motion->contact_account()->continue_from(
           carry_history(former.history,
                         former.solid.contact->faces(),
                         contact->faces(),
                         contact->contact().parameters().slave_priority),
           former.friction_work);
       }
-      integrator->continue_after_cut(state, former.energy, duration);
+      motion->integrator().continue_after_cut(state, former.energy, duration);
       // A few steps resolve the time in which the faces separate.
       constexpr double steps_per_increment = 4.;
       const double     usual               = state.next_step > 0.
                                                ? state.next_step
                                                : scene.parameters().time.initial_step;
-      integrator->set_next_step(
+      motion->integrator().set_next_step(
         std::min(usual, duration / steps_per_increment));
       if (contact)
         take_contact();
       note_energies();
-      last_good = integrator->state();
+      last_good = motion->integrator().state();
     }
   } // namespace internal
 } // namespace NMM

@@ -51,7 +51,7 @@ namespace NMM
     DynamicAnalysis::take_contact()
     {
       contact->remember_states();
-      contact->take_state(contact_term->friction_work());
+      contact->take_state(motion->contact_account()->friction_work());
     }
 
 
@@ -75,7 +75,10 @@ namespace NMM
         drop_blocks();
       can_be_saved = false;
       note_energies();
-      const std::string fault = contact ? contact->find_deep_penetration() : "";
+      const std::string fault =
+        contact ? contact->find_deep_penetration(
+                    contact->last_state().report.largest_penetration)
+                : "";
       AssertThrow(fault.empty(),
                   NumericalFailure("There is " + fault,
                                    "time " + std::to_string(time()) +
@@ -93,7 +96,7 @@ namespace NMM
           "choose another 'Fracture/Increment' or "
           "'Fracture/Grading'"));
       can_be_saved = true;
-      last_good    = integrator->state();
+      last_good    = motion->integrator().state();
       warn_of_turns(record.report.step);
       write_rows(record);
       const OutputParameters &output = scene.parameters().output;
@@ -169,7 +172,7 @@ namespace NMM
     DynamicAnalysis::history_values(const StepRecord &record) const
     {
       const StepReport   &report  = record.report;
-      const Account      &account = integrator->account();
+      const Account      &account = motion->integrator().account();
       std::vector<double> values  = {report.step,
                                      double(report.n_iterations),
                                      double(record.n_lost_iterations),
@@ -189,10 +192,10 @@ namespace NMM
           values.push_back(value);
       if (leaving)
         values.insert(values.end(),
-                      {double(integrator->state().left_blocks.size()),
+                      {double(motion->integrator().state().left_blocks.size()),
                        account.left});
       if (scene.parameters().time.sleep.speed > 0.)
-        values.push_back(integrator->n_asleep());
+        values.push_back(motion->integrator().n_asleep());
       if (growth)
         values.insert(values.end(),
                       {double(growth->table().n_increments()),
@@ -216,7 +219,7 @@ namespace NMM
       {
         // The checkpoint needs vectors without unknowns of other ranks.
         Vector owned(velocity());
-        owned        = integrator->state().u;
+        owned        = motion->integrator().state().u;
         probe_values = probe_history->evaluate(owned, velocity());
       }
       on_first_rank([&]() {
@@ -243,7 +246,9 @@ namespace NMM
     void
     DynamicAnalysis::write_checkpoint()
     {
-      Checkpoint::write(*integrator, checkpoint_file(), part_to_save());
+      Checkpoint::write(motion->integrator(),
+                        checkpoint_file(),
+                        part_to_save());
     }
 
 
@@ -256,7 +261,7 @@ namespace NMM
              << ", t = " << time();
         if (kind == Analysis::relaxation)
           line << " s, imbalance " << std::setprecision(2)
-               << integrator->account().imbalance;
+               << motion->integrator().account().imbalance;
         else
         {
           const double end  = scene.parameters().time.end_time;
@@ -267,11 +272,11 @@ namespace NMM
         }
         if (contact)
           line << "; " << contact->progress();
-        if (leaving && !integrator->state().left_blocks.empty())
-          line << "; " << integrator->state().left_blocks.size()
+        if (leaving && !motion->integrator().state().left_blocks.empty())
+          line << "; " << motion->integrator().state().left_blocks.size()
                << " block(s) have left";
-        if (integrator->n_asleep() > 0)
-          line << "; " << integrator->n_asleep() << " block(s) sleep";
+        if (motion->integrator().n_asleep() > 0)
+          line << "; " << motion->integrator().n_asleep() << " block(s) sleep";
         return line.str();
       });
     }
@@ -282,30 +287,32 @@ namespace NMM
     {
       evaluator.reset();
       recovery.reset();
-      field =
-        std::make_unique<DisplacementField>(*covers, problem, displacement());
-      recovery = std::make_unique<StressRecovery>(*field, aggregation);
+      field    = std::make_unique<DisplacementField>(solid->covers(),
+                                                  problem,
+                                                  displacement());
+      recovery = std::make_unique<StressRecovery>(*field, solid->aggregation());
       // Assemble again, since the last assembly may be that of a step that failed.
       if (inelastic_terms() != nullptr)
         (void)inelastic_terms()->assemble(displacement(),
                                           /* with_tangent = */ false);
-      Vector relevant(covers->locally_owned_dofs(2),
-                      covers->locally_relevant_dofs(2),
+      Vector relevant(solid->covers().locally_owned_dofs(2),
+                      solid->covers().locally_relevant_dofs(2),
                       communicator);
       relevant = velocity();
       velocity_field =
-        std::make_unique<DisplacementField>(*covers, problem, relevant);
+        std::make_unique<DisplacementField>(solid->covers(), problem, relevant);
       evaluator =
         std::make_unique<FieldEvaluator>(*field,
                                          *recovery,
                                          problem,
-                                         CurrentStress::of(*model, *quadrature),
+                                         CurrentStress::of(motion->solid_term(),
+                                                           solid->quadrature()),
                                          velocity_field.get());
       if (inelastic_terms() != nullptr)
         evaluator->set_plastic_strain(CurrentStress::plastic_strain(
-          *inelastic_terms(), *covers, *quadrature));
+          *inelastic_terms(), solid->covers(), solid->quadrature()));
       if (leaving)
-        evaluator->hide_blocks(integrator->state().left_blocks);
+        evaluator->hide_blocks(motion->integrator().state().left_blocks);
     }
 
 
@@ -325,11 +332,11 @@ namespace NMM
       if (damping.stiffness > 0.)
         summary.add("stiffness_damping", damping.stiffness, "s");
       if (kind == Analysis::relaxation)
-        summary.add("imbalance", integrator->account().imbalance);
+        summary.add("imbalance", motion->integrator().account().imbalance);
       add_energies();
       if (scene.parameters().model.kinematics != Kinematics::small)
         summary.add("current_area",
-                    CurrentStress::area(*field, *quadrature),
+                    CurrentStress::area(*field, solid->quadrature()),
                     length + "^2");
       if (contact)
         contact->add_to_summary(summary);
@@ -341,9 +348,10 @@ namespace NMM
         summary.add("grown_length", growth->table().grown_length(), length);
       }
       if (leaving)
-        summary.add("blocks_left", integrator->state().left_blocks.size());
+        summary.add("blocks_left",
+                    motion->integrator().state().left_blocks.size());
       if (scene.parameters().time.sleep.speed > 0.)
-        summary.add("blocks_asleep", integrator->n_asleep());
+        summary.add("blocks_asleep", motion->integrator().n_asleep());
       summary.add("direct_stress_covers",
                   dealii::Utilities::MPI::sum(recovery->n_direct(),
                                               communicator));
@@ -361,7 +369,7 @@ namespace NMM
         output.stress_unit + "*" + output.length_unit + "^2*s";
       const std::string angular_momentum =
         output.stress_unit + "*" + output.length_unit + "^3*s";
-      const Account &account = integrator->account();
+      const Account &account = motion->integrator().account();
       summary.add("kinetic_energy", t * account.kinetic, energy);
       summary.add("strain_energy", t * account.strain, energy);
       summary.add("conditions_energy", t * account.conditions, energy);
@@ -382,7 +390,7 @@ namespace NMM
     void
     DynamicAnalysis::note_energies()
     {
-      const Account &account = integrator->account();
+      const Account &account = motion->integrator().account();
       const double   stored =
         account.kinetic + account.strain + account.conditions;
       AssertThrow(

@@ -14,13 +14,14 @@ namespace NMM
       const std::vector<Curve> limits = scene.make_limits();
       if (limits.empty())
         return;
-      leaving = std::make_unique<LeavingBlocks>(*covers,
-                                                limits,
-                                                elasticity->tied_blocks());
-      const DisplacementField undeformed(*covers,
+      leaving = std::make_unique<LeavingBlocks>(
+        solid->covers(),
+        limits,
+        motion->solid_term().elasticity().tied_blocks());
+      const DisplacementField undeformed(solid->covers(),
                                          problem,
                                          std::vector<dealii::Tensor<1, 2>>(
-                                           covers->n_covers()));
+                                           solid->covers().n_covers()));
       const auto              outside = leaving->find(undeformed);
       AssertThrow(
         outside.empty(),
@@ -54,16 +55,17 @@ namespace NMM
     void
     DynamicAnalysis::drop_blocks()
     {
-      const auto gone =
-        leaving->find(DisplacementField(*covers, problem, displacement()),
-                      integrator->state().left_blocks);
+      const auto  gone    = leaving->find(DisplacementField(solid->covers(),
+                                                        problem,
+                                                        displacement()),
+                                      motion->integrator().state().left_blocks);
       const auto &regions = physical_mesh->regions();
       // Blocks are removed one after the other, so that the energy of each one is known.
       for (const LeavingBlocks::Departure &departure : gone)
       {
-        const Account before = integrator->account();
-        integrator->drop_blocks({departure.block});
-        const Account             &after = integrator->account();
+        const Account before = motion->integrator().account();
+        motion->integrator().drop_blocks({departure.block});
+        const Account             &after = motion->integrator().account();
         const dealii::Tensor<1, 2> momentum =
           before.linear_momentum - after.linear_momentum;
         const dealii::Point<2> middle =

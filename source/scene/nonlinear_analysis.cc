@@ -7,7 +7,6 @@
 #include <iomanip>
 #include <limits>
 #include <scene/current_stress.h>
-#include <scene/mechanism.h>
 #include <scene/nonlinear_analysis.h>
 #include <scene/parsing.h>
 #include <sstream>
@@ -24,38 +23,30 @@ namespace NMM
     void
     NonlinearAnalysis::make_system()
     {
+      const SceneParameters &parameters = scene.parameters();
+      EquilibriumParameters  how;
+      how.kinematics = parameters.model.kinematics;
+      how.newton     = show_iterations(parameters.newton.newton, progress);
       try
       {
-        // Blocks without supports are allowed if there is contact, which may hold them.
-        finite = std::make_unique<FiniteElasticity>(
-          *covers, *quadrature, constraints, problem, contact != nullptr);
+        equilibrium =
+          std::make_unique<Equilibrium>(*solid, problem, how, contact.get());
       }
       catch (const NumericalFailure &)
       {
         failure = std::current_exception();
       }
       stages = scene.make_stages(*physical_mesh);
-      if (finite)
-      {
-        // loads have reached their full size before the first stage
-        const Loading grows = proportional_loading(problem);
-        Loading       loading;
-        loading.amplitudes = [grows](const double load_factor) {
-          return grows.amplitudes(std::min(1., load_factor));
-        };
-        solid = make_solid(*finite,
-                           scene.parameters().model.kinematics,
-                           stages.empty() ? grows : loading);
-      }
 
-      const auto [first, last] = covers->locally_owned_elements();
+      const auto [first, last] = solid->covers().locally_owned_elements();
       for (unsigned int element = first; element < last; ++element)
         for (const QuadraticTriangle &triangle :
-             triangulate(*manifold_mesh, element))
+             triangulate(solid->manifold_mesh(), element))
           for (const Point<2> &x : triangle)
-            output_points.emplace_back(element,
-                                       mathematical_mesh->real_to_reference(
-                                         manifold_mesh->cell(element), x));
+            output_points.emplace_back(
+              element,
+              solid->mathematical_mesh().real_to_reference(
+                solid->manifold_mesh().cell(element), x));
     }
 
 
@@ -82,10 +73,7 @@ namespace NMM
       try
       {
         Stage stage(progress, "load steps");
-        if (contact)
-          run_contact();
-        else
-          run_newton();
+        run_stages();
       }
       catch (const NumericalFailure &)
       {
@@ -108,64 +96,37 @@ namespace NMM
 
 
     void
-    NonlinearAnalysis::run_newton()
+    NonlinearAnalysis::run_stages()
     {
-      const SceneParameters &parameters = scene.parameters();
-      if (problem.has_varying_initial_stress())
-        report_initial_balance(
-          StaticSystem(*solid).initial_forces(finite->initial_solution(), 1.));
-      // The stiffness of materials that yield depends on the direction, as that of contact.
-      NonlinearStatics statics(*solid,
-                               inelastic_terms() == nullptr
-                                 ? show_iterations(parameters.newton.newton,
-                                                   progress)
-                                 : contact_newton_parameters(scene, progress));
-      const auto       after_step = [&](const LoadStep &step,
-                                  const Vector   &solution) {
-        HistoryRow row;
-        row.load_factor       = step.load_factor;
-        row.n_iterations      = step.n_iterations;
-        row.n_cuts            = step.n_cuts;
-        row.n_lost_iterations = step.n_lost_iterations;
-        row.relative_residual = step.relative_residual;
-        plastic_dissipation += problem.thickness * statics.dissipated();
-        row.strain_energy = problem.thickness *
-                            solid->strain_energy_at(solution, step.load_factor);
-        add_step(row, solution);
+      LoadSteps  steps      = scene.parameters().load_steps.load_steps();
+      const auto after_step = [this](const ContactStep &step, const Vector &u) {
+        add_step(step, u);
       };
+      if (!contact && problem.has_varying_initial_stress())
+        report_initial_balance(equilibrium->initial_forces());
       try
       {
-        run_stages(statics, parameters.load_steps.load_steps(), after_step);
+        equilibrium->run(steps, after_step);
+        for (unsigned int i = 0; i < stages.size(); ++i)
+        {
+          const double begin = 1. + i;
+          progress.message("    stage '" + scene.parameters().stages[i].name +
+                           "', load factors " + to_text(begin) + " to " +
+                           to_text(begin + 1.));
+          equilibrium->begin_stage(stages[i]);
+          removed_blocks.insert(removed_blocks.end(),
+                                stages[i].removed_blocks.begin(),
+                                stages[i].removed_blocks.end());
+          for (double &load_factor : steps.load_factors)
+            load_factor += 1.;
+          equilibrium->run(steps, after_step);
+        }
       }
       catch (const NumericalFailure &)
       {
-        n_last_cuts       = statics.last_attempt().n_cuts;
-        n_last_iterations = statics.last_attempt().n_lost_iterations;
+        n_last_cuts       = equilibrium->last_attempt().n_cuts;
+        n_last_iterations = equilibrium->last_attempt().n_lost_iterations;
         throw;
-      }
-    }
-
-
-    template <typename Statics, typename AfterStep>
-    void
-    NonlinearAnalysis::run_stages(Statics         &statics,
-                                  LoadSteps        steps,
-                                  const AfterStep &after_step)
-    {
-      statics.run(steps, after_step);
-      for (unsigned int i = 0; i < stages.size(); ++i)
-      {
-        const double begin = 1. + i;
-        progress.message("    stage '" + scene.parameters().stages[i].name +
-                         "', load factors " + to_text(begin) + " to " +
-                         to_text(begin + 1.));
-        statics.begin_stage(stages[i], begin + 1.);
-        removed_blocks.insert(removed_blocks.end(),
-                              stages[i].removed_blocks.begin(),
-                              stages[i].removed_blocks.end());
-        for (double &load_factor : steps.load_factors)
-          load_factor += 1.;
-        statics.run(steps, after_step);
       }
     }
 
@@ -189,142 +150,38 @@ namespace NMM
     {
       return std::find(removed_blocks.begin(),
                        removed_blocks.end(),
-                       manifold_mesh->block(element)) != removed_blocks.end();
+                       solid->manifold_mesh().block(element)) !=
+             removed_blocks.end();
     }
 
 
     void
-    NonlinearAnalysis::run_contact()
+    NonlinearAnalysis::add_step(const ContactStep &step, const Vector &solution)
     {
-      const SceneParameters &parameters = scene.parameters();
-      ContactStatics         statics(*solid,
-                             contact->contact(),
-                             contact_newton_parameters(scene, progress));
-      double                 friction_work = 0.;
-      const auto             after_step    = [&](const ContactStep &step,
-                                  const Vector      &solution) {
-        if (history.empty())
-          report_initial_balance(statics.initial_forces());
-        HistoryRow row;
-        row.load_factor       = step.load_factor;
-        row.n_iterations      = step.n_iterations;
-        row.n_cuts            = step.n_cuts;
-        row.n_lost_iterations = step.n_lost_iterations;
-        row.relative_residual = step.relative_residual;
-        row.strain_energy     = problem.thickness *
-                            solid->strain_energy_at(solution, step.load_factor);
-        const std::string fault =
-          contact->find_deep_penetration(step.contact.largest_penetration);
-        AssertThrow(
-          fault.empty(),
-          NumericalFailure("There is " + fault,
-                           describe_step(step.load_factor),
-                           "choose a higher 'Contact/Normal stiffness', or "
-                                          "loads that the solid can bear"));
-        friction_work += step.dissipated;
-        plastic_dissipation += problem.thickness * step.dissipated_by_material;
-        contact->take_state(friction_work);
+      if (contact && history.empty())
+        report_initial_balance(equilibrium->initial_forces());
+      HistoryRow row;
+      row.load_factor       = step.load_factor;
+      row.n_iterations      = step.n_iterations;
+      row.n_cuts            = step.n_cuts;
+      row.n_lost_iterations = step.n_lost_iterations;
+      row.relative_residual = step.relative_residual;
+      row.strain_energy =
+        problem.thickness *
+        equilibrium->solid_term().strain_energy_at(solution, step.load_factor);
+      if (contact)
         row.contact_numbers = contact->numbers(problem.thickness);
-        contact->remember_states();
-        add_step(row, solution);
-      };
-      try
-      {
-        LoadSteps steps = parameters.load_steps.load_steps();
-        // Small displacements are linear in the load as long as no contact state changes.
-        if (solid->kinematics() == Kinematics::small)
-          steps.extrapolation_degree = 1;
-        run_stages(statics, steps, after_step);
-      }
-      catch (const NumericalFailure &error)
-      {
-        n_last_cuts       = statics.last_attempt().n_cuts;
-        n_last_iterations = statics.last_attempt().n_lost_iterations;
-        // A solution that was found and not accepted, such as one behind a wall, has no mechanism.
-        if (statics.last_attempt().newton.converged)
-          throw;
-        explain(error, statics);
-      }
-    }
-
-
-    void
-    NonlinearAnalysis::explain(const NumericalFailure &error,
-                               const ContactStatics   &statics)
-    {
-      const Mechanism   mechanism = find_mechanism(statics,
-                                                 *solid,
-                                                 contact->contact(),
-                                                 reached_load_factor(),
-                                                 *quadrature);
-      const std::string reason =
-        error.description() + ". " + mechanism.description;
-      if (history.empty())
-        check_that_all_touch(reason);
-      AssertThrow(
-        !mechanism.does_anything_move,
-        NumericalFailure(
-          reason,
-          error.place(),
-          "friction or cohesion are too low, or the block tips over or lifts "
-          "off; hold it by displacement conditions, or let blocks move with "
-          "'Model/Analysis = relaxation' or 'dynamic'"));
-      AssertThrow(false,
-                  NumericalFailure(
-                    reason,
-                    error.place(),
-                    "set a lower 'Contact/Shear stiffness' or a smaller 'Load "
-                    "steps/Smallest step', or let blocks move with "
-                    "'Model/Analysis = relaxation'"));
-    }
-
-
-    void
-    NonlinearAnalysis::check_that_all_touch(const std::string &reason)
-    {
-      std::string floating;
-      try
-      {
-        const FiniteElasticity without_contact(*covers,
-                                               *quadrature,
-                                               constraints,
-                                               problem);
-      }
-      catch (const NumericalFailure &error)
-      {
-        floating = error.message();
-      }
-      if (floating.empty())
-        return;
-      const Vector start = finite->initial_solution();
-      Contact     &law   = contact->contact();
-      law.set_time(0.);
-      law.detect(start);
-      law.assemble(start, false);
-      AssertThrow(
-        contact->all_are_touched(problem),
-        NumericalFailure(reason +
-                           ". Contact alone has to hold the solid, "
-                           "and not all blocks touch what holds them: " +
-                           floating,
-                         "the first load step",
-                         "let faces touch at the start, or "
-                         "set 'Model/Analysis = relaxation'"));
-    }
-
-
-    void
-    NonlinearAnalysis::add_step(HistoryRow row, const Vector &solution)
-    {
-      field = std::make_unique<DisplacementField>(*covers, problem, solution);
+      field =
+        std::make_unique<DisplacementField>(solid->covers(), problem, solution);
       const InelasticTerms *terms = inelastic_terms();
       if (!has_large_displacements())
         row.strain_energy =
           small_strain_energy() +
           (terms == nullptr ? 0. : problem.thickness * terms->totals().energy);
       if (terms != nullptr)
-        row.plastic = HistoryRow::Plastic{plastic_dissipation,
-                                          terms->totals().yielded_area};
+        row.plastic =
+          HistoryRow::Plastic{problem.thickness * equilibrium->material_work(),
+                              terms->totals().yielded_area};
       row.max_displacement = find_max_displacement();
       AssertThrow(
         std::isfinite(row.strain_energy) && std::isfinite(row.max_displacement),
@@ -332,7 +189,7 @@ namespace NMM
                          describe_step(row.load_factor),
                          "look for loads and stiffness of extreme size"));
 
-      const auto [first, last] = covers->locally_owned_elements();
+      const auto [first, last] = solid->covers().locally_owned_elements();
       for (const ProbePoints::Entry &entry : probes->entries())
         if (!scene.parameters().probes[entry.probe].is_line)
         {
@@ -341,10 +198,11 @@ namespace NMM
               is_removed(entry.element))
             u[0] = u[1] = std::numeric_limits<double>::quiet_NaN();
           else if (entry.element >= first && entry.element < last)
-            u = field->displacement(entry.element,
-                                    mathematical_mesh->real_to_reference(
-                                      manifold_mesh->cell(entry.element),
-                                      entry.x));
+            u =
+              field->displacement(entry.element,
+                                  solid->mathematical_mesh().real_to_reference(
+                                    solid->manifold_mesh().cell(entry.element),
+                                    entry.x));
           row.probe_displacements.push_back(Parallel::sum(u, communicator));
         }
       compute_intensity_factors();
@@ -403,24 +261,24 @@ namespace NMM
     {
       evaluator.reset();
       recovery.reset();
-      field =
-        std::make_unique<DisplacementField>(*covers, problem, last_solution);
-      recovery = std::make_unique<StressRecovery>(*field, aggregation);
+      field    = std::make_unique<DisplacementField>(solid->covers(),
+                                                  problem,
+                                                  last_solution);
+      recovery = std::make_unique<StressRecovery>(*field, solid->aggregation());
       // Assemble again, since the last assembly may be that of a step that failed.
       if (inelastic_terms() != nullptr)
-        (void)solid->inelastic_terms()->assemble(last_solution,
-                                                 /* with_tangent = */ false);
-      evaluator =
-        std::make_unique<FieldEvaluator>(*field,
-                                         *recovery,
-                                         problem,
-                                         solid ? CurrentStress::of(*solid,
-                                                                   *quadrature)
-                                               : FieldEvaluator::StressLaw());
+        (void)equilibrium->solid_term().inelastic_terms()->assemble(
+          last_solution,
+          /* with_tangent = */ false);
+      evaluator = std::make_unique<FieldEvaluator>(
+        *field,
+        *recovery,
+        problem,
+        CurrentStress::of(equilibrium->solid_term(), solid->quadrature()));
       evaluator->hide_blocks(removed_blocks);
       if (inelastic_terms() != nullptr)
         evaluator->set_plastic_strain(CurrentStress::plastic_strain(
-          *inelastic_terms(), *covers, *quadrature));
+          *inelastic_terms(), solid->covers(), solid->quadrature()));
     }
 
 
@@ -468,7 +326,8 @@ namespace NMM
     const InelasticTerms *
     NonlinearAnalysis::inelastic_terms() const
     {
-      return solid ? solid->inelastic_terms() : nullptr;
+      return equilibrium ? equilibrium->solid_term().inelastic_terms()
+                         : nullptr;
     }
 
 

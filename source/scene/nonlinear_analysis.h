@@ -1,9 +1,7 @@
 #ifndef nmm_source_scene_nonlinear_analysis_h
 #define nmm_source_scene_nonlinear_analysis_h
 
-#include <nmm/mechanics/finite_elasticity.h>
-#include <nmm/mechanics/nonlinear_statics.h>
-#include <nmm/mechanics/solid_term.h>
+#include <nmm/analysis/equilibrium.h>
 
 #include <exception>
 #include <memory>
@@ -35,7 +33,7 @@ namespace NMM
       verify() override;
 
     private:
-      using Vector = FiniteElasticity::Vector;
+      using Vector = Equilibrium::Vector;
 
       /// A row of history.csv.
       struct HistoryRow
@@ -65,9 +63,8 @@ namespace NMM
         std::optional<Plastic> plastic;
       };
 
-      /// The elasticity of large and, as linearized by `system`, of small displacements.
-      std::unique_ptr<FiniteElasticity> finite;
-      std::unique_ptr<SolidTerm>        solid;
+      /// Null if a block floats.
+      std::unique_ptr<Equilibrium> equilibrium;
       /// The failure to set up equations, since a block floats. It is not an input error, so
       /// solve() throws it.
       std::exception_ptr failure;
@@ -84,8 +81,6 @@ namespace NMM
       unsigned int n_last_cuts = 0, n_last_iterations = 0;
       /// Displacements of the last step that converged [m].
       Vector last_solution;
-      /// Energy that inelastic materials have dissipated in all steps [J].
-      double plastic_dissipation = 0.;
 
       void
       make_system() override;
@@ -97,20 +92,9 @@ namespace NMM
       const InelasticTerms *
       inelastic_terms() const;
 
-      /// Solves a problem without contact, with large or small displacements.
+      /// Takes the steps of the first equilibrium and of all stages.
       void
-      run_newton();
-
-      void
-      run_contact();
-
-      /// Takes the steps of the first equilibrium and of all stages with @p statics, a NonlinearStatics
-      /// or ContactStatics.
-      template <typename Statics, typename AfterStep>
-      void
-      run_stages(Statics         &statics,
-                 LoadSteps        steps,
-                 const AfterStep &after_step);
+      run_stages();
 
       /// "load factor 1.5", with the name of the stage.
       std::string
@@ -128,19 +112,9 @@ namespace NMM
       double
       find_max_displacement() const;
 
-      /// Completes the message of @p error by the block that is not held, if there is one, and
-      /// throws it. @throws NumericalFailure.
-      void
-      explain(const NumericalFailure &error, const ContactStatics &statics);
-
-      /// Checks that no block is without contact if only contact holds blocks. @throws
-      /// NumericalFailure with @p reason and the block.
-      void
-      check_that_all_touch(const std::string &reason);
-
       /// Stores and reports a load step that converged.
       void
-      add_step(HistoryRow row, const Vector &solution);
+      add_step(const ContactStep &step, const Vector &solution);
 
       /// Makes field, recovery and evaluator of the last step that converged.
       void

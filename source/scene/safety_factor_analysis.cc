@@ -1,13 +1,12 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/stop.h>
-#include <nmm/mechanics/mass_matrix.h>
 #include <nmm/output/csv_series.h>
 
 #include <algorithm>
+#include <analysis/mechanism.h>
 #include <cmath>
 #include <iomanip>
 #include <scene/current_stress.h>
-#include <scene/mechanism.h>
 #include <scene/safety_factor_analysis.h>
 #include <scene/static_start.h>
 #include <sstream>
@@ -41,117 +40,75 @@ namespace NMM
     void
     SafetyFactorAnalysis::make_system()
     {
-      Stage              system_stage(progress, "masses");
-      const unsigned int degree = 2 * mathematical_mesh->degree();
-      mass_quadrature           = std::make_unique<QuadratureCollection>(
-        *manifold_mesh, degree, degree, covers->locally_owned_elements());
-      elasticity = std::make_unique<FiniteElasticity>(
-        *covers, *quadrature, constraints, problem, /* may_float = */ true);
-      const auto mass = make_mass_matrix(*elasticity, *mass_quadrature);
-      model           = make_solid(*elasticity,
-                         scene.parameters().model.kinematics,
-                         scene.make_loading(),
-                         mass);
+      Stage                       system_stage(progress, "masses");
+      const SceneParameters      &given = scene.parameters();
+      StrengthReductionParameters parameters;
+      parameters.search = given.safety_factor.search;
+      parameters.trial =
+        given.relaxation.of_trial(given.safety_factor.max_displacement,
+                                  given.safety_factor.search.tolerance);
+      MotionParameters &how = parameters.motion;
+      how.kinematics        = given.model.kinematics;
+      how.loading           = scene.make_loading();
+      how.scheme            = given.time.time_scheme(Analysis::safety_factor,
+                                          how.kinematics,
+                                          /* has_contact = */ true);
+      how.contact_update    = update_in_relaxation(how.scheme);
+      how.newton            = motion_newton_parameters(scene, progress);
+      reduction             = std::make_unique<StrengthReduction>(*solid,
+                                                      problem,
+                                                      std::move(parameters),
+                                                      contact.get());
+      reduction->after_step = [this](const double      factor,
+                                     const StepRecord &step) {
+        stop_if_asked(communicator);
+        show_progress(factor, step);
+      };
+      reduction->after_trial = [this](StrengthTrial &trial) {
+        add_trial(trial);
+      };
     }
 
 
     void
     SafetyFactorAnalysis::settle()
     {
-      StartReport report;
-      settled           = find_start({scene,
-                                      *covers,
-                                      *quadrature,
-                                      *mass_quadrature,
-                                      constraints,
-                                      problem,
-                                      contact.get(),
-                                      progress},
-                           report);
-      n_start_steps     = report.n_steps;
-      settled_materials = report.material_state;
+      StartReport              report;
+      StrengthReduction::Start start;
+      start.displacement =
+        find_start({scene, *solid, problem, contact.get(), progress}, report);
+      start.materials = report.material_state;
+      n_start_steps   = report.n_steps;
       if (contact)
-        settled_contact = contact->contact().history();
+        start.contact = contact->contact().history();
+      reduction->start_from(std::move(start));
     }
 
 
-    StrengthTrial
-    SafetyFactorAnalysis::try_factor(const double factor)
+    void
+    SafetyFactorAnalysis::add_trial(StrengthTrial &trial)
     {
-      const SceneParameters &parameters = scene.parameters();
-      const TimeScheme       scheme =
-        parameters.time.time_scheme(Analysis::safety_factor,
-                                    parameters.model.kinematics,
-                                    /* has_contact = */ true);
-      std::vector<ForceTerm *>          force_terms = {model.get()};
-      std::unique_ptr<AccountedContact> with_contact;
-      if (contact)
-      {
-        contact->begin_anew(factor);
-        with_contact =
-          std::make_unique<AccountedContact>(model->layout(),
-                                             *contact,
-                                             update_in_relaxation(scheme));
-        with_contact->append_to(force_terms);
-      }
-      InelasticTerms *const terms = model->inelastic_terms();
-      if (terms != nullptr)
-      {
-        terms->forget_states();
-        terms->set_materials(reduce_strength(problem.materials, factor));
-      }
-      MechanicalModel mechanics(model->layout(), force_terms);
-      TimeIntegrator  integrator(mechanics,
-                                scheme,
-                                motion_newton_parameters(scene, progress));
-      if (parameters.safety_factor.start == Start::settled)
-      {
-        if (contact)
-          with_contact->continue_from(settled_contact);
-        if (terms != nullptr)
-          terms->restore_internal_state(settled_materials);
-        integrator.initialize(settled,
-                              Vector(model->layout().locally_owned,
-                                     communicator));
-      }
-      const RelaxationParameters relaxation = parameters.relaxation.of_trial(
-        parameters.safety_factor.max_displacement,
-        parameters.safety_factor.search.tolerance);
-      StrengthTrial trial = try_to_stand(
-        integrator, relaxation, factor, [&](const StepRecord &step) {
-          stop_if_asked(communicator);
-          show_progress(factor, integrator, step);
-        });
-
       if (trial.outcome == StrengthTrial::Outcome::moves)
-        trial.reason += ": " + describe_motion(integrator.state().u);
-      if (tells_more(trial))
-      {
-        shown              = trial;
-        shown_displacement = integrator.state().u;
-        if (contact)
-          shown_contact = contact->last_state();
-        if (terms != nullptr)
-          shown_materials = terms->internal_state();
-      }
+        trial.reason +=
+          ": " + describe_motion(reduction->motion().integrator().state().u);
+      std::vector<StrengthTrial> trials = reduction->so_far().trials;
       trials.push_back(trial);
-      on_first_rank([&]() { write_trials(); });
+      on_first_rank([&]() { write_trials(trials); });
       std::ostringstream line;
-      line << "  factor " << factor << ' ' << verb(trial.outcome) << " ("
+      line << "  factor " << trial.factor << ' ' << verb(trial.outcome) << " ("
            << trial.n_steps << " steps, " << trial.n_iterations
            << " iterations, imbalance " << std::setprecision(2)
            << trial.imbalance << std::setprecision(6)
            << (trial.reason.empty() ? "" : ", ") << trial.reason << ')';
       progress.message(line.str());
-      return trial;
     }
 
 
     void
-    SafetyFactorAnalysis::show_progress(const double          factor,
-                                        const TimeIntegrator &integrator,
-                                        const StepRecord     &step)
+    SafetyFactorAnalysis::show_progress(const double      factor,
+                                        const StepRecord &step)
     {
+      const TimeIntegrator &integrator = reduction->motion().integrator();
       stage->update([&](double) {
         std::ostringstream line;
         line << std::setprecision(3) << "factor " << factor << ", step "
@@ -160,18 +117,6 @@ namespace NMM
              << " m, imbalance " << integrator.account().imbalance;
         return line.str();
       });
-    }
-
-
-    bool
-    SafetyFactorAnalysis::tells_more(const StrengthTrial &trial) const
-    {
-      if (trials.empty() || trial.fails())
-        return true;
-      if (trial.outcome != shown.outcome)
-        return shown.stands();
-      return trial.stands() ? trial.factor > shown.factor
-                            : trial.factor < shown.factor;
     }
 
 
@@ -186,23 +131,17 @@ namespace NMM
       {
         Stage search(progress, "trials");
         stage  = &search;
-        result = find_safety_factor(
-          [this](const double factor) { return try_factor(factor); },
-          parameters.search);
+        result = reduction->find();
       }
       catch (const Stopped &)
       {
-        for (const StrengthTrial &trial : trials)
-          if (trial.stands())
-            result.stands_at = std::max(result.stands_at, trial.factor);
-          else if (!trial.fails())
-            result.moves_at = std::min(result.moves_at, trial.factor);
-        if (!trials.empty())
-          show_best_trial();
+        result = reduction->so_far();
+        if (!result.trials.empty())
+          show();
         verify();
         throw;
       }
-      show_best_trial();
+      show();
       is_solved = result.stands_at > 0. && std::isfinite(result.moves_at) &&
                   !result.has_failed();
       if (!is_solved)
@@ -211,16 +150,6 @@ namespace NMM
       line << "  factor of safety " << result.value() << ": stands at "
            << result.stands_at << ", moves at " << result.moves_at;
       progress.message(line.str());
-    }
-
-
-    void
-    SafetyFactorAnalysis::show_best_trial()
-    {
-      if (contact)
-        contact->show_state(shown_contact);
-      Stage recovery_stage(progress, "stress recovery");
-      show();
     }
 
 
@@ -249,12 +178,12 @@ namespace NMM
       if (result.has_failed())
       {
         std::ostringstream where;
-        where << "the factor " << trials.back().factor;
+        where << "the factor " << result.trials.back().factor;
         what
           << "The search for the factor of safety has ended, because a trial "
              "did not converge: it tells neither whether the blocks stand nor "
              "whether they move ("
-          << what_is_known() << "; " << trials.back().reason << ')';
+          << what_is_known() << "; " << result.trials.back().reason << ')';
         AssertThrow(false,
                     NumericalFailure(what.str(),
                                      where.str(),
@@ -271,7 +200,8 @@ namespace NMM
       if (!stands)
         what << ": there is no factor of safety, since strength does not hold "
                 "them. At the factor "
-             << shown.factor << ' ' << describe_motion(shown_displacement);
+             << reduction->shown().trial.factor << ' '
+             << describe_motion(reduction->shown().displacement);
       AssertThrow(
         false,
         NumericalFailure(
@@ -288,19 +218,16 @@ namespace NMM
     std::string
     SafetyFactorAnalysis::describe_motion(const Vector &end) const
     {
-      Vector begin(end);
-      begin = 0.;
-      if (scene.parameters().safety_factor.start == Start::settled)
-        begin = settled;
-      std::string text =
-        internal::describe_motion(*covers, problem, *quadrature, begin, end);
+      std::string text = internal::describe_motion(
+        solid->covers(), problem, solid->quadrature(), reduction->start(), end);
       text[0] = 'b';
       return text;
     }
 
 
     void
-    SafetyFactorAnalysis::write_trials() const
+    SafetyFactorAnalysis::write_trials(
+      const std::vector<StrengthTrial> &trials) const
     {
       directory->write_text("safety_factor.csv", [&](std::ostream &out) {
         out.precision(12);
@@ -317,26 +244,29 @@ namespace NMM
     void
     SafetyFactorAnalysis::show()
     {
+      Stage recovery_stage(progress, "stress recovery");
       evaluator.reset();
       recovery.reset();
-      Vector relevant(model->layout().locally_owned,
-                      model->layout().locally_relevant,
+      reduction->show();
+      const SolidTerm &term = reduction->motion().solid_term();
+      Vector           relevant(term.layout().locally_owned,
+                      term.layout().locally_relevant,
                       communicator);
-      relevant = shown_displacement;
-      field = std::make_unique<DisplacementField>(*covers, problem, relevant);
-      recovery = std::make_unique<StressRecovery>(*field, aggregation);
-      InelasticTerms *const terms = model->inelastic_terms();
+      relevant = reduction->shown().displacement;
+      field =
+        std::make_unique<DisplacementField>(solid->covers(), problem, relevant);
+      recovery = std::make_unique<StressRecovery>(*field, solid->aggregation());
+      InelasticTerms *const terms = term.inelastic_terms();
       if (terms != nullptr)
-      {
-        terms->set_materials(reduce_strength(problem.materials, shown.factor));
-        terms->restore_internal_state(shown_materials);
         (void)terms->assemble(relevant, /* with_tangent = */ false);
-      }
       evaluator = std::make_unique<FieldEvaluator>(
-        *field, *recovery, problem, CurrentStress::of(*model, *quadrature));
+        *field,
+        *recovery,
+        problem,
+        CurrentStress::of(term, solid->quadrature()));
       if (terms != nullptr)
-        evaluator->set_plastic_strain(
-          CurrentStress::plastic_strain(*terms, *covers, *quadrature));
+        evaluator->set_plastic_strain(CurrentStress::plastic_strain(
+          *terms, solid->covers(), solid->quadrature()));
     }
 
 
@@ -346,18 +276,18 @@ namespace NMM
       // One end of the bracket alone is no factor of safety.
       if (result.stands_at > 0. && std::isfinite(result.moves_at))
         summary.add("safety_factor", result.value());
-      if (!trials.empty())
+      if (!result.trials.empty())
       {
         summary.add("factor_stands", result.stands_at);
         summary.add("factor_moves", result.moves_at);
       }
-      summary.add("trials", trials.size());
+      summary.add("trials", result.trials.size());
       unsigned int n_steps = n_start_steps;
-      for (const StrengthTrial &trial : trials)
+      for (const StrengthTrial &trial : result.trials)
         n_steps += trial.n_steps;
       summary.add("time_steps", n_steps);
-      summary.add("shown_factor", shown.factor);
-      summary.add("shown_stands", shown.stands() ? 1. : 0.);
+      summary.add("shown_factor", reduction->shown().trial.factor);
+      summary.add("shown_stands", reduction->shown().trial.stands() ? 1. : 0.);
       if (contact)
         contact->add_to_summary(summary);
     }
@@ -366,7 +296,7 @@ namespace NMM
     double
     SafetyFactorAnalysis::last_value() const
     {
-      return shown.factor;
+      return reduction->shown().trial.factor;
     }
 
 
@@ -374,10 +304,12 @@ namespace NMM
     SafetyFactorAnalysis::unsolved_note() const
     {
       std::ostringstream note;
-      if (shown.fails())
-        note << "no convergence at the factor " << shown.factor;
+      if (reduction->shown().trial.fails())
+        note << "no convergence at the factor "
+             << reduction->shown().trial.factor;
       else
-        note << verb(shown.outcome) << " at all factors tried";
+        note << verb(reduction->shown().trial.outcome)
+             << " at all factors tried";
       return note.str();
     }
   } // namespace internal

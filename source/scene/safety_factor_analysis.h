@@ -1,8 +1,7 @@
 #ifndef nmm_source_scene_safety_factor_analysis_h
 #define nmm_source_scene_safety_factor_analysis_h
 
-#include <nmm/dynamics/strength_reduction.h>
-#include <nmm/mechanics/solid_term.h>
+#include <nmm/analysis/strength_reduction.h>
 
 #include <memory>
 #include <scene/scene_analysis.h>
@@ -37,29 +36,13 @@ namespace NMM
     private:
       using Vector = MechanicalModel::Vector;
 
-      // Each object refers to those above it.
-      std::unique_ptr<QuadratureCollection> mass_quadrature;
-      std::unique_ptr<FiniteElasticity>     elasticity;
-      std::unique_ptr<SolidTerm>            model;
-
-      /// The state from which each trial starts, unless it starts without displacements.
-      Vector            settled;
-      ContactHistory    settled_contact;
-      std::vector<char> settled_materials;
-      unsigned int      n_start_steps = 0;
+      std::unique_ptr<StrengthReduction> reduction;
+      unsigned int                       n_start_steps = 0;
 
       /// The stage of the search, while it runs.
       Progress::Stage *stage = nullptr;
 
       SafetyFactor result;
-      /// The trials so far.
-      std::vector<StrengthTrial> trials;
-      /// The trial whose results are shown, and its final state.
-      StrengthTrial          shown;
-      Vector                 shown_displacement;
-      ContactAnalysis::State shown_contact;
-      std::vector<char>      shown_materials;
-
       void
       make_system() override;
 
@@ -67,18 +50,13 @@ namespace NMM
       void
       settle();
 
-      StrengthTrial
-      try_factor(double factor);
+      /// Completes, writes and reports a trial.
+      void
+      add_trial(StrengthTrial &trial);
 
       /// Shows the last step of a trial as a sign of life.
       void
-      show_progress(double                factor,
-                    const TimeIntegrator &integrator,
-                    const StepRecord     &step);
-
-      /// Whether this trial is to be shown instead of the present one.
-      bool
-      tells_more(const StrengthTrial &trial) const;
+      show_progress(double factor, const StepRecord &step);
 
       /// Reports that no bracket was found, or that a trial failed. @throws NumericalFailure.
       void
@@ -89,7 +67,7 @@ namespace NMM
       what_is_known() const;
 
       void
-      write_trials() const;
+      write_trials(const std::vector<StrengthTrial> &trials) const;
 
       /// Which blocks have moved from the start of a trial to @p end, as a part of a sentence.
       std::string
@@ -98,10 +76,6 @@ namespace NMM
       /// Makes field, recovery and evaluator of the trial that is shown.
       void
       show();
-
-      /// The same, and its contact.
-      void
-      show_best_trial();
 
       double
       last_value() const override;

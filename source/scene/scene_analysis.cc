@@ -1,5 +1,4 @@
 #include <nmm/base/program.h>
-#include <nmm/covers/own_meshes.h>
 #include <nmm/mechanics/load_values.h>
 #include <nmm/output/vtu.h>
 
@@ -115,13 +114,9 @@ namespace NMM
       field.reset();
       crack_tips.reset();
       probes.reset();
-      quadrature.reset();
-      ghost_penalty.reset();
       contact.reset();
+      solid.reset();
       tip_covers.clear();
-      covers.reset();
-      manifold_mesh.reset();
-      mathematical_mesh.reset();
       physical_mesh.reset();
     }
 
@@ -138,50 +133,25 @@ namespace NMM
       cleaning_actions.insert(cleaning_actions.end(),
                               merged.begin(),
                               merged.end());
+      solid = make_solid();
+      if (parameters.in_situ_stress.is_present)
+        set_in_situ_stress(parameters.in_situ_stress,
+                           solid->manifold_mesh(),
+                           problem);
+      probes = std::make_unique<ProbePoints>(solid->manifold_mesh(),
+                                             parameters.probes);
+      if (parameters.contact.is_present())
       {
-        Stage stage(progress, "mathematical mesh");
-        mathematical_mesh =
-          std::make_unique<MathematicalMesh>(scene.make_mathematical_mesh(
-            *physical_mesh, communicator, further_sizes));
+        Stage stage(progress, "faces");
+        contact = std::make_unique<ContactAnalysis>(scene, *solid, problem);
       }
-      {
-        Stage stage(progress, "cutting");
-        cut();
-        if (scene.parameters().in_situ_stress.is_present)
-          set_in_situ_stress(scene.parameters().in_situ_stress,
-                             *manifold_mesh,
-                             problem);
-        probes =
-          std::make_unique<ProbePoints>(*manifold_mesh, parameters.probes);
-      }
-      {
-        Stage stage(progress, "covers");
-        make_covers();
-      }
-      {
-        Stage stage(progress, "quadrature");
-        // The stiffness matrix needs the degree 2p - 2, and a constant body force p. A body force
-        // or an initial stress that varies is integrated with the accuracy of the mass matrix. The energy of finite
-        // strains needs 4p - 4: with less, the result depends on which points the rules of cut
-        // elements have, and rounding may decide that.
-        const unsigned int p = mathematical_mesh->degree();
-        const bool         is_finite =
-          parameters.model.kinematics == Kinematics::finite;
-        const unsigned int degree = std::max(
-          {is_finite ? 4 * p - 4 : 2 * p - 2,
-           p,
-           problem.body_force || problem.has_varying_initial_stress() ? 2 * p
-                                                                      : 0});
-        quadrature = std::make_unique<QuadratureCollection>(
-          *manifold_mesh, degree, degree, covers->locally_owned_elements());
-        check_load_values(*covers, *quadrature, problem);
-      }
+      check_load_values(solid->covers(), solid->quadrature(), problem);
       make_system();
       add_counts();
       if (parameters.fracture.n_increments > 0)
         keep_geometry();
       if (series)
-        series->follow(*covers, contact.get());
+        series->follow(solid->covers(), contact.get());
     }
 
 
@@ -198,66 +168,64 @@ namespace NMM
       if (tip_covers.empty())
         return;
       add_circles(tip_covers, *physical_mesh, geometry);
-      physical_mesh = std::make_unique<PhysicalMesh>(std::move(geometry));
+      physical_mesh = std::make_shared<const PhysicalMesh>(std::move(geometry));
     }
 
 
-    void
-    SceneAnalysis::cut()
+    std::unique_ptr<Solid>
+    SceneAnalysis::make_solid()
     {
-      OwnMeshParameters parameters;
-      parameters.threshold       = scene.parameters().covers.threshold;
-      parameters.regions         = scene.make_region_meshes(*physical_mesh);
-      parameters.memory_per_cell = scene.memory_per_cell();
-      OwnMeshes meshes           = make_own_meshes(std::move(mathematical_mesh),
-                                         *physical_mesh,
-                                         parameters);
-      mathematical_mesh          = std::move(meshes.mathematical_mesh);
-      manifold_mesh              = std::move(meshes.manifold_mesh);
-      own_mesh_notices           = std::move(meshes.notices);
-    }
-
-
-    void
-    SceneAnalysis::make_covers()
-    {
-      const CoverParameters &parameters = scene.parameters().covers;
-      covers = std::make_unique<CoverSystem>(*manifold_mesh, communicator);
-      // The surface is made first, since it makes more covers relevant to a rank. Aggregation then
-      // adds the covers on which these depend.
-      if (scene.parameters().contact.is_present())
-        contact =
-          std::make_unique<ContactAnalysis>(scene, *physical_mesh, *covers);
-      // With the threshold 0 every element is well supported, and no cover is constrained.
-      aggregation =
-        aggregate(*covers,
-                  parameters.stabilization == Stabilization::aggregation
-                    ? parameters.threshold
-                    : 0.);
-      constraints = make_constraints(*covers, aggregation, 2);
-      if (contact)
-        contact->make_contact(constraints, problem);
-      if (parameters.stabilization == Stabilization::ghost_penalty)
-        ghost_penalty = std::make_unique<GhostPenalty>(
-          make_ghost_penalty(*manifold_mesh, parameters.threshold));
+      const SceneParameters            &scene_parameters = scene.parameters();
+      std::unique_ptr<MathematicalMesh> mesh;
+      {
+        Stage stage(progress, "mathematical mesh");
+        mesh = std::make_unique<MathematicalMesh>(scene.make_mathematical_mesh(
+          *physical_mesh, communicator, further_sizes));
+      }
+      SolidParameters parameters;
+      parameters.stabilization      = scene_parameters.covers.stabilization;
+      parameters.threshold          = scene_parameters.covers.threshold;
+      parameters.own_meshes.regions = scene.make_region_meshes(*physical_mesh);
+      parameters.own_meshes.memory_per_cell = scene.memory_per_cell();
+      parameters.may_touch   = scene_parameters.contact.is_present();
+      parameters.begin_stage = [this](const std::string &name) {
+        return std::make_shared<Stage>(progress, name);
+      };
+      // The stiffness matrix needs the degree 2p - 2, and a constant body force p. A body force
+      // or an initial stress that varies is integrated with the accuracy of the mass matrix. The energy of finite
+      // strains needs 4p - 4: with less, the result depends on which points the rules of cut
+      // elements have, and rounding may decide that.
+      const unsigned int p         = mesh->degree();
+      parameters.quadrature_degree = std::max(
+        {scene_parameters.model.kinematics == Kinematics::finite ? 4 * p - 4
+                                                                 : 2 * p - 2,
+         p,
+         problem.body_force || problem.has_varying_initial_stress() ||
+             scene_parameters.in_situ_stress.is_present
+           ? 2 * p
+           : 0});
+      return std::make_unique<Solid>(physical_mesh,
+                                     std::move(mesh),
+                                     communicator,
+                                     parameters);
     }
 
 
     void
     SceneAnalysis::add_counts()
     {
-      const auto [first, last] = covers->locally_owned_elements();
+      const auto [first, last] = solid->covers().locally_owned_elements();
       double area = 0., smallest = 1.;
       for (unsigned int element = first; element < last; ++element)
       {
-        const double fraction = quadrature->area_fraction(element);
+        const double fraction = solid->quadrature().area_fraction(element);
         smallest              = std::min(smallest, fraction);
-        area +=
-          fraction * mathematical_mesh->cell_area(manifold_mesh->cell(element));
+        area += fraction * solid->mathematical_mesh().cell_area(
+                             solid->manifold_mesh().cell(element));
       }
       namespace MPI = dealii::Utilities::MPI;
       summary.add("ranks", MPI::n_mpi_processes(communicator));
-      summary.add("degree", mathematical_mesh->degree());
+      summary.add("degree", solid->mathematical_mesh().degree());
       summary.add("blocks", physical_mesh->n_blocks());
       summary.add("regions", physical_mesh->regions().size());
       const std::vector<Curve> &curves = physical_mesh->curves();
@@ -268,16 +236,18 @@ namespace NMM
                                   return curve.role == CurveRole::joint;
                                 }));
       add_block_counts();
-      summary.add("own_meshes", mathematical_mesh->n_parts() - 1);
-      summary.add("cells", mathematical_mesh->n_cells());
-      summary.add("cells_cut_exactly", manifold_mesh->n_cells_cut_exactly());
+      summary.add("own_meshes", solid->mathematical_mesh().n_parts() - 1);
+      summary.add("cells", solid->mathematical_mesh().n_cells());
+      summary.add("cells_cut_exactly",
+                  solid->manifold_mesh().n_cells_cut_exactly());
       summary.add("mathematical_covers",
-                  mathematical_mesh->n_mathematical_covers());
-      summary.add("manifold_elements", manifold_mesh->n_elements());
-      summary.add("physical_covers", covers->n_covers());
-      summary.add("aggregated_covers", aggregation.cover_to_root.size());
-      double n_unknowns =
-        2. * (covers->n_covers() - aggregation.cover_to_root.size());
+                  solid->mathematical_mesh().n_mathematical_covers());
+      summary.add("manifold_elements", solid->manifold_mesh().n_elements());
+      summary.add("physical_covers", solid->covers().n_covers());
+      summary.add("aggregated_covers",
+                  solid->aggregation().cover_to_root.size());
+      double n_unknowns = 2. * (solid->covers().n_covers() -
+                                solid->aggregation().cover_to_root.size());
       for (const auto &cover : tip_covers)
         n_unknowns += cover->n_functions();
       summary.add("unknowns", n_unknowns);
@@ -286,11 +256,11 @@ namespace NMM
                   scene.parameters().output.length_unit + "^2");
       summary.add("smallest_area_fraction", MPI::min(smallest, communicator));
       summary.add("quadrature_fallbacks",
-                  MPI::sum(quadrature->n_fallbacks(), communicator));
+                  MPI::sum(solid->quadrature().n_fallbacks(), communicator));
       summary.add("cleaning_actions", cleaning_actions.size());
       summary.add("notices",
                   scene.notices().size() + scene_notices.size() +
-                    physical_mesh->notices().size() + own_mesh_notices.size() +
+                    physical_mesh->notices().size() + solid->notices().size() +
                     (crack_tips ? crack_tips->notices().size() : 0));
     }
 
@@ -339,11 +309,11 @@ namespace NMM
                           return cover->tip().point == tip;
                         }))
           continue;
-        const unsigned int element = manifold_mesh->find_element(tip);
+        const unsigned int element = solid->manifold_mesh().find_element(tip);
         if (element == invalid_index)
           continue;
-        const double size =
-          mathematical_mesh->cell_diameter(manifold_mesh->cell(element));
+        const double size = solid->mathematical_mesh().cell_diameter(
+          solid->manifold_mesh().cell(element));
         if (size > largest.second)
           largest = {tip, size};
       }
@@ -412,11 +382,7 @@ namespace NMM
     SceneAnalysis::FormerSolid
     SceneAnalysis::release_solid()
     {
-      return {std::move(physical_mesh),
-              std::move(mathematical_mesh),
-              std::move(manifold_mesh),
-              std::move(covers),
-              std::move(contact)};
+      return {std::move(solid), std::move(contact)};
     }
 
 
@@ -434,7 +400,7 @@ namespace NMM
       add_notices(block_notices());
       if (crack_tips)
         add_notices(crack_tips->notices());
-      add_notices(own_mesh_notices);
+      add_notices(solid->notices());
       if (contact)
         add_notices(contact->notices());
       for (const std::string &notice : merge_alike(notices))
@@ -489,7 +455,7 @@ namespace NMM
         return;
       namespace MPI            = dealii::Utilities::MPI;
       double           largest = 0.;
-      auto             here    = covers->locally_owned_dofs(2).begin();
+      auto             here    = solid->covers().locally_owned_dofs(2).begin();
       dealii::Point<2> place;
       for (unsigned int i = 0; i < forces.locally_owned_size();
            i += 2, ++ ++here)
@@ -499,7 +465,7 @@ namespace NMM
         if (size > largest)
         {
           largest = size;
-          place   = covers->node(cover_of(*here));
+          place   = solid->covers().node(cover_of(*here));
         }
       }
       const auto all = MPI::min_max_avg(largest, communicator);
@@ -536,14 +502,14 @@ namespace NMM
     SceneAnalysis::small_strain_energy() const
     {
       double energy            = 0.;
-      const auto [first, last] = covers->locally_owned_elements();
+      const auto [first, last] = solid->covers().locally_owned_elements();
       for (unsigned int element = first; element < last; ++element)
       {
         if (is_removed(element))
           continue;
-        const dealii::Quadrature<2> &rule = quadrature->rule(element);
-        const double                 determinant =
-          2. * mathematical_mesh->cell_area(manifold_mesh->cell(element));
+        const dealii::Quadrature<2> &rule = solid->quadrature().rule(element);
+        const double determinant = 2. * solid->mathematical_mesh().cell_area(
+                                          solid->manifold_mesh().cell(element));
         for (unsigned int q = 0; q < rule.size(); ++q)
         {
           const auto gradient =
@@ -583,8 +549,8 @@ namespace NMM
         tips.back().point = tip.point;
       }
       auto              cracks = std::make_unique<CrackSample>();
-      const ProbePoints points(*manifold_mesh, tips);
-      const auto [first, last] = covers->locally_owned_elements();
+      const ProbePoints points(solid->manifold_mesh(), tips);
+      const auto [first, last] = solid->covers().locally_owned_elements();
       for (unsigned int i = 0; i < tips.size(); ++i)
       {
         const ProbePoints::Entry &entry = points.entries()[i];
@@ -610,7 +576,7 @@ namespace NMM
     {
       directory = &output_directory;
       series    = std::make_unique<StateSeries>(scene,
-                                             *covers,
+                                             solid->covers(),
                                              contact.get(),
                                              *directory);
       open_files();
@@ -662,7 +628,7 @@ namespace NMM
         write_cleaning();
         if (evaluator && !probes->entries().empty())
         {
-          const auto samples = probes->evaluate(*covers, *evaluator);
+          const auto samples = probes->evaluate(solid->covers(), *evaluator);
           for (unsigned int i = 0; i < samples.size() && fault.empty(); ++i)
             if (samples[i])
               fault = find_not_finite(*samples[i], probes->entries()[i].x);
@@ -676,7 +642,7 @@ namespace NMM
           crack_tips->write(*directory);
 
         const auto           cracks = sample_cracks();
-        const FieldTriangles triangles(*covers, evaluator.get());
+        const FieldTriangles triangles(solid->covers(), evaluator.get());
         if (fault.empty())
           fault = triangles.find_not_finite(communicator);
         if (fault.empty())
@@ -686,10 +652,10 @@ namespace NMM
                     triangles.max_displacement(communicator),
                     parameters.length_unit);
         if (parameters.fields)
-          series->finish(
-            last_value(),
-            write_fields_of_state(*covers, triangles, *directory, "fields"),
-            cracks.get());
+          series->finish(last_value(),
+                         write_fields_of_state(
+                           solid->covers(), triangles, *directory, "fields"),
+                         cracks.get());
         if (evaluator)
           series->finish_contact(last_value());
         // A motion is at some time; load steps and lengths of cracks end with the scene.

@@ -1,19 +1,16 @@
 #ifndef nmm_source_scene_scene_analysis_h
 #define nmm_source_scene_scene_analysis_h
 
-#include <nmm/covers/aggregation.h>
-#include <nmm/covers/cover_system.h>
 #include <nmm/fracture/tip_cover.h>
 #include <nmm/mechanics/displacement_field.h>
+#include <nmm/mechanics/solid.h>
 #include <nmm/mechanics/stress_recovery.h>
 #include <nmm/output/output_directory.h>
 #include <nmm/output/probes.h>
 #include <nmm/output/progress.h>
-#include <nmm/quadrature/element_quadrature.h>
 #include <nmm/scene/scene.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/lac/affine_constraints.h>
 
 #include <functional>
 #include <memory>
@@ -92,20 +89,14 @@ namespace NMM
       std::vector<LocalSize> further_sizes;
 
       // Each object refers to those above it.
-      std::vector<CleaningAction>       cleaning_actions;
-      std::vector<std::string>          scene_notices, own_mesh_notices;
-      std::unique_ptr<PhysicalMesh>     physical_mesh;
-      std::unique_ptr<MathematicalMesh> mathematical_mesh;
-      std::unique_ptr<ManifoldMesh>     manifold_mesh;
-      std::unique_ptr<CoverSystem>      covers;
-      Aggregation                       aggregation;
+      std::vector<CleaningAction>         cleaning_actions;
+      std::vector<std::string>            scene_notices;
+      std::shared_ptr<const PhysicalMesh> physical_mesh;
+      std::unique_ptr<Solid>              solid;
+      ElasticityProblem                   problem;
       /// Null without contact.
-      std::unique_ptr<ContactAnalysis>      contact;
-      dealii::AffineConstraints<double>     constraints;
-      std::unique_ptr<GhostPenalty>         ghost_penalty;
-      std::unique_ptr<QuadratureCollection> quadrature;
-      ElasticityProblem                     problem;
-      std::unique_ptr<ProbePoints>          probes;
+      std::unique_ptr<ContactAnalysis> contact;
+      std::unique_ptr<ProbePoints>     probes;
       /// Covers of crack tips, if the analysis can have them.
       std::vector<std::unique_ptr<TipCover>> tip_covers;
       /// Null unless the scene asks for intensity factors.
@@ -131,11 +122,8 @@ namespace NMM
       /// A solid that was replaced by one that is cut further. Each object refers to those above it.
       struct FormerSolid
       {
-        std::unique_ptr<PhysicalMesh>     physical_mesh;
-        std::unique_ptr<MathematicalMesh> mathematical_mesh;
-        std::unique_ptr<ManifoldMesh>     manifold_mesh;
-        std::unique_ptr<CoverSystem>      covers;
-        std::unique_ptr<ContactAnalysis>  contact;
+        std::unique_ptr<Solid>           solid;
+        std::unique_ptr<ContactAnalysis> contact;
       };
 
       /// Writes the list of what cleaning has changed, if it has changed anything.
@@ -267,11 +255,9 @@ namespace NMM
       std::pair<dealii::Point<2>, double>
       tip_in_the_largest_cell() const;
 
-      void
-      cut();
-
-      void
-      make_covers();
+      /// Cuts the solid on the mesh that the scene asks for.
+      std::unique_ptr<Solid>
+      make_solid();
 
       void
       write_summary();

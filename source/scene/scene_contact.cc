@@ -1,14 +1,10 @@
 #include <nmm/base/exceptions.h>
-#include <nmm/contact/diagnostics/locked_corners.h>
-#include <nmm/contact/law/coulomb_law.h>
-#include <nmm/contact/surface/initial_stress.h>
-#include <nmm/covers/crack_tip.h>
+#include <nmm/contact/chosen_parameters.h>
 #include <nmm/scene/parameter_tree.h>
 #include <nmm/scene/scene.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <scene/parsing.h>
 #include <scene/shapes.h>
@@ -77,13 +73,9 @@ namespace NMM
 
 
   std::vector<RigidObstacle>
-  Scene::make_obstacles(const PhysicalMesh &physical_mesh,
-                        ObstacleSwitches   *switches) const
+  Scene::make_obstacles(const PhysicalMesh           &physical_mesh,
+                        std::vector<ObstacleRelease> *releases) const
   {
-    const auto is_frozen = std::make_shared<bool>(false);
-    if (switches != nullptr)
-      *switches = {{}, is_frozen};
-
     std::vector<RigidObstacle> obstacles;
     const auto                 add = [&](const std::string &name,
                          const Curve       &curve,
@@ -105,13 +97,9 @@ namespace NMM
       obstacle.name         = name;
       obstacle.pieces       = internal::oriented_pieces(curve);
       obstacle.displacement = motion;
-      if (switches != nullptr && release_time >= 0.)
-        switches->releases.push_back(
+      if (releases != nullptr && release_time >= 0.)
+        releases->push_back(
           {static_cast<unsigned int>(obstacles.size()), release_time});
-      if (switches != nullptr && motion)
-        obstacle.displacement = [=](const double t) {
-          return motion(*is_frozen ? 0. : t);
-        };
       obstacles.push_back(std::move(obstacle));
     };
     for (const ObstacleParameters &parameters : scene_parameters.obstacles)
@@ -158,179 +146,38 @@ namespace NMM
   }
 
 
-  namespace
-  {
-    /// Largest Young's modulus of each block [Pa].
-    std::vector<double>
-    block_moduli(const PhysicalMesh &mesh, const ElasticityProblem &problem)
-    {
-      const std::vector<unsigned int> region_to_material =
-        problem.region_to_material(mesh);
-      std::vector<double> moduli(mesh.n_blocks(), 0.);
-      for (unsigned int r = 0; r < mesh.regions().size(); ++r)
-      {
-        double &modulus = moduli[mesh.regions()[r].block];
-        modulus =
-          std::max(modulus,
-                   problem.materials[region_to_material[r]].youngs_modulus);
-      }
-      return moduli;
-    }
-
-
-    /// Rank of each value in ascending order, from 0 on; equal values have equal ranks.
-    std::vector<unsigned int>
-    ranks(const std::vector<double> &values)
-    {
-      const std::set<double>    steps(values.begin(), values.end());
-      std::vector<unsigned int> result;
-      for (const double value : values)
-        result.push_back(std::distance(steps.begin(), steps.find(value)));
-      return result;
-    }
-
-
-    /// The size of cells at faces [m] below which a twentieth of the faces lies by their length, or a
-    /// tenth by their number of edges; an edge is in one cell. Slivers are left out, since their cells can be
-    /// as thin as they are, unless all regions are slivers.
-    double
-    smaller_cell_size(const ContactSurface &surface, const bool is_by_length)
-    {
-      const ManifoldMesh &mesh    = surface.cover_system().manifold_mesh();
-      const auto         &regions = mesh.physical_mesh().regions();
-      const bool          with_slivers =
-        std::all_of(regions.begin(), regions.end(), [](const auto &region) {
-          return region.is_sliver;
-        });
-      std::vector<std::pair<double, double>> sizes;
-      double                                 sum = 0.;
-      for (unsigned int e = 0; e < surface.edges().size(); ++e)
-      {
-        const auto &edge = surface.edges()[e];
-        if (surface.is_rigid(e) ||
-            (!with_slivers && regions[mesh.region(edge.element)].is_sliver))
-          continue;
-        // The size is the edge length of the equilateral triangle with the same area.
-        const double twice_area =
-          1. / std::abs(dealii::determinant(edge.inverse));
-        const double weight = is_by_length ? edge.start.distance(edge.end) : 1.;
-        sizes.emplace_back(std::sqrt(2. * twice_area / std::sqrt(3.)), weight);
-        sum += weight;
-      }
-      Assert(!sizes.empty(), dealii::ExcMessage("A solid has a boundary."));
-      std::sort(sizes.begin(), sizes.end());
-      double left = (is_by_length ? 0.05 : 0.1) * sum;
-      auto   size = sizes.begin();
-      while (left >= size->second && size + 1 != sizes.end())
-        left -= (size++)->second;
-      return size->first;
-    }
-
-
-    /// Cracks with tips towards which the mesh is graded.
-    struct FineCracks
-    {
-      FineCracks() = default;
-
-      explicit FineCracks(const PhysicalMesh &mesh)
-      {
-        for (const CrackTip &tip : find_crack_tips(mesh))
-        {
-          shortest = std::min(shortest, tip.free_radius);
-          names.insert(mesh.curves()[tip.curve].name);
-        }
-      }
-
-      /// The cell size [m] that the stiffness of springs between their faces follows. Cells at tips
-      /// are up to a million times smaller than the crack; with springs as stiff as such cells the
-      /// pressure oscillates. With a stiffness of 30 E / (0.003 R), the intensity factors of a closed
-      /// crack of length R are wrong by less than 1e-4.
-      double
-      cell_size(const ContactSurface &surface) const
-      {
-        return std::max(smaller_cell_size(surface, /* is_by_length = */ false),
-                        3e-3 * shortest);
-      }
-
-      std::set<std::string> names;
-      /// The smallest free radius of a tip [m].
-      double shortest = std::numeric_limits<double>::max();
-    };
-  } // namespace
-
-
   ContactParameters
   Scene::make_contact_parameters(const ContactSurface    &surface,
                                  const ElasticityProblem &problem) const
   {
     check_law_names(surface);
-    const ContactSectionParameters &section = scene_parameters.contact;
-    const bool                      is_augmented =
-      section.enforcement == Enforcement::augmented_lagrangian;
-    const double        size = contact_cell_size(surface);
-    const PhysicalMesh &mesh =
-      surface.cover_system().manifold_mesh().physical_mesh();
-    const FineCracks cracks =
-      scene_parameters.fracture.grades_mesh() ? FineCracks(mesh) : FineCracks();
-    const double fine_size =
-      cracks.names.empty() ? size : std::min(size, cracks.cell_size(surface));
-    const std::vector<double> moduli = block_moduli(mesh, problem);
-    const double modulus = *std::min_element(moduli.begin(), moduli.end());
-
-    // The penalty method needs stiff springs to be accurate, which a static
-    // analysis allows. Stiff shear springs prevent Newton's method from
-    // deciding between stick and slip in a static analysis; with soft ones in dynamics, faces that
-    // lose contact repeatedly slide too far.
-    const Analysis analysis = scene_parameters.model.analysis;
-    const bool     is_stiff = !is_augmented && analysis == Analysis::statics;
-    const auto     make_law = [&](const double cell_size) {
-      // A spring at a vertex represents the length of a cell, which does not enter its stiffness.
-      const double length =
-        section.integration == ContactIntegration::points ? 1. : cell_size;
-      CoulombLaw chosen;
-      chosen.normal_stiffness = (is_stiff ? 30. : 10.) * modulus / length;
-      chosen.shear_stiffness =
-        cracks.names.empty()
-              ? (analysis == Analysis::dynamics ? 10. : 1.) * modulus / length
-              : chosen.normal_stiffness;
-      return section.law.make_law(chosen);
-    };
-    ContactParameters parameters;
-    parameters.law           = make_law(size);
-    const auto law_of_cracks = make_law(fine_size);
-    const auto may_be_crack  = [&](const std::string &name) {
-      return name.empty() || cracks.names.count(name) > 0;
+    const ContactSectionParameters &section  = scene_parameters.contact;
+    const Analysis                  analysis = scene_parameters.model.analysis;
+    ContactChoices                  choices;
+    choices.law = [&](const ContactLaw &springs) {
+      return section.law.make_law(springs);
     };
     for (const ContactLawParameters &law : section.laws)
-      parameters.pairs.push_back({law.between[0],
-                                  law.between[1],
-                                  law.make_law(may_be_crack(law.between[0]) &&
-                                                   may_be_crack(law.between[1])
-                                                 ? *law_of_cracks
-                                                 : *parameters.law)});
-    // the first law that fits holds
-    for (const std::string &crack : cracks.names)
-      parameters.pairs.push_back({crack, crack, law_of_cracks});
-    if (is_augmented)
-      parameters.penetration_tolerance = section.penetration_tolerance > 0.
-                                           ? section.penetration_tolerance
-                                           : 1e-5 * fine_size;
-    parameters.reach          = section.reach;
-    parameters.n_points       = section.n_points;
-    parameters.integration    = section.integration;
-    parameters.slave_priority = ranks(moduli);
-    parameters.initial_stress = initial_stress_at_faces(surface, problem);
-    parameters.rounded_corners =
-      find_locked_corners(surface, scene_parameters.model.gravity);
-    // A block that moves further than a trial of the factor of safety allows does not stand. Elsewhere
-    // the rounding is a small part of what the mesh resolves.
-    constexpr double further = 1.5, of_cell = 0.01;
-    parameters.corner_rounding =
-      section.corner_rounding > 0. ? section.corner_rounding
-      : analysis == Analysis::safety_factor
-        ? further * scene_parameters.safety_factor.max_displacement
-        : of_cell * size;
-    return parameters;
+      choices.pairs.push_back(
+        {law.between[0], law.between[1], [&law](const ContactLaw &springs) {
+           return law.make_law(springs);
+         }});
+    choices.use = analysis == Analysis::statics    ? ContactUse::statics
+                  : analysis == Analysis::dynamics ? ContactUse::motion
+                                                   : ContactUse::relaxation;
+    choices.has_multipliers =
+      section.enforcement == Enforcement::augmented_lagrangian;
+    choices.has_graded_tips = scene_parameters.fracture.grades_mesh();
+    if (choices.has_multipliers)
+      choices.values.penetration_tolerance = section.penetration_tolerance;
+    choices.values.reach           = section.reach;
+    choices.values.n_points        = section.n_points;
+    choices.values.integration     = section.integration;
+    choices.values.corner_rounding = section.corner_rounding;
+    choices.gravity                = scene_parameters.model.gravity;
+    if (analysis == Analysis::safety_factor)
+      choices.way_at_corners = scene_parameters.safety_factor.max_displacement;
+    return choose_contact_parameters(surface, problem, choices);
   }
 
 
@@ -368,12 +215,5 @@ namespace NMM
     std::nth_element(times.begin(), median, times.end());
     result.stiffness = 4. / dealii::numbers::PI * *median;
     return result;
-  }
-
-
-  double
-  contact_cell_size(const ContactSurface &surface)
-  {
-    return smaller_cell_size(surface, /* is_by_length = */ true);
   }
 } // namespace NMM

@@ -21,8 +21,12 @@ namespace NMM
       std::vector<const DiskCover *> disks;
       for (const auto &cover : tip_covers)
         disks.push_back(cover.get());
-      elasticity = std::make_unique<StaticElasticity>(
-        *covers, *quadrature, constraints, problem, ghost_penalty.get(), disks);
+      elasticity = std::make_unique<StaticElasticity>(solid->covers(),
+                                                      solid->quadrature(),
+                                                      solid->constraints(),
+                                                      problem,
+                                                      solid->ghost_penalty(),
+                                                      disks);
     }
 
 
@@ -112,10 +116,13 @@ namespace NMM
     {
       {
         Stage stage(progress, "stress recovery");
-        field = std::make_unique<DisplacementField>(*covers, problem, solution);
+        field = std::make_unique<DisplacementField>(solid->covers(),
+                                                    problem,
+                                                    solution);
         for (unsigned int i = 0; i < tip_covers.size(); ++i)
           field->add_disk(*tip_covers[i], elasticity->disk_coefficients()[i]);
-        recovery = std::make_unique<StressRecovery>(*field, aggregation);
+        recovery =
+          std::make_unique<StressRecovery>(*field, solid->aggregation());
         evaluator =
           std::make_unique<FieldEvaluator>(*field, *recovery, problem);
       }
@@ -129,8 +136,8 @@ namespace NMM
       Stage                 stage(progress, "condition number");
       const ConditionNumber condition =
         estimate_condition_number(elasticity->system_matrix(),
-                                  *covers,
-                                  constraints);
+                                  solid->covers(),
+                                  solid->constraints());
       summary.add("condition_number", condition.value());
       const bool has_place = condition.weakest_cover != invalid_index;
       if (has_place)
@@ -297,8 +304,8 @@ namespace NMM
       line.is_line = true;
       line.from    = ring.center() + ring.inner_radius() * radial;
       line.to      = ring.center() + ring.outer_radius() * radial;
-      const ProbePoints points(*manifold_mesh, {line});
-      const auto        samples = points.evaluate(*covers, *evaluator);
+      const ProbePoints points(solid->manifold_mesh(), {line});
+      const auto        samples = points.evaluate(solid->covers(), *evaluator);
 
       double error_direct = 0., error_recovered = 0.;
       for (unsigned int i = 0; i < samples.size(); ++i)

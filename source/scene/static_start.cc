@@ -1,17 +1,11 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/base/stop.h>
-#include <nmm/contact/assembly/statics.h>
-#include <nmm/contact/assembly/term.h>
 #include <nmm/dynamics/relaxation.h>
-#include <nmm/mechanics/mass_matrix.h>
-#include <nmm/mechanics/nonlinear_statics.h>
-#include <nmm/mechanics/solid_term.h>
-#include <nmm/mechanics/static_system.h>
 
 #include <algorithm>
+#include <analysis/mechanism.h>
 #include <iomanip>
 #include <memory>
-#include <scene/mechanism.h>
 #include <scene/static_start.h>
 #include <sstream>
 #include <utility>
@@ -20,7 +14,7 @@ namespace NMM
 {
   namespace internal
   {
-    using Vector = FiniteElasticity::Vector;
+    using Vector = ForceTerm::Vector;
 
     namespace
     {
@@ -29,49 +23,6 @@ namespace NMM
       {
         const Loading loading = scene.make_loading();
         return loading.amplitudes ? loading.amplitudes(0.) : LoadAmplitudes();
-      }
-
-
-      bool
-      is_small(const Scene &scene)
-      {
-        return scene.parameters().model.kinematics == Kinematics::small;
-      }
-
-
-      Vector
-      owned_part(const StartInput &input, const Vector &solution)
-      {
-        Vector owned(input.covers.locally_owned_dofs(2),
-                     input.covers.communicator());
-        owned = solution;
-        return owned;
-      }
-
-
-      /// Solves one linear problem.
-      Vector
-      solve_small(const StartInput &input,
-                  FiniteElasticity &elasticity,
-                  StartReport      &report)
-      {
-        const auto   solid = make_solid_at_rest(elasticity,
-                                              Kinematics::small,
-                                              amplitudes_at_start(input.scene));
-        StaticSystem system(*solid);
-        system.set_load_factor(1.);
-        Vector             u(input.covers.locally_owned_dofs(2),
-                 input.covers.locally_relevant_dofs(2),
-                 input.covers.communicator());
-        NewtonSolver       solver;
-        const NewtonReport newton = solver.solve(system, input.constraints, u);
-        AssertThrow(newton.converged,
-                    NumericalFailure(newton.reason,
-                                     "the linear problem",
-                                     "see that supports hold every block"));
-        report.n_steps      = 1;
-        report.n_iterations = newton.iterations.size();
-        return owned_part(input, u);
       }
 
 
@@ -94,49 +45,29 @@ namespace NMM
                     Progress::Stage  &stage,
                     StartReport      &report)
       {
-        const Scene     &scene = input.scene;
-        FiniteElasticity elasticity(input.covers,
-                                    input.quadrature,
-                                    input.constraints,
-                                    input.problem,
-                                    /* may_float = */ input.contact != nullptr);
-        const LoadSteps  steps = scene.parameters().load_steps.load_steps();
-        if (is_small(scene) && !scene.parameters().is_nonlinear())
-          return solve_small(input, elasticity, report);
-        const auto solid =
-          make_solid_at_rest(elasticity,
-                             scene.parameters().model.kinematics,
-                             amplitudes_at_start(scene));
-        const auto keep_materials = [&]() {
-          if (const InelasticTerms *terms = solid->inelastic_terms())
-            report.material_state = terms->internal_state();
-        };
-        if (input.contact == nullptr)
-        {
-          NonlinearStatics statics(
-            *solid,
-            show_iterations(scene.parameters().newton.newton, input.progress));
-          statics.run(steps, [&](const LoadStep &step, const Vector &) {
-            ++report.n_steps;
-            report.n_iterations += step.n_iterations + step.n_lost_iterations;
-            show_load(stage, report, step.load_factor);
-            stop_if_asked(input.covers.communicator());
-          });
-          keep_materials();
-          return owned_part(input, statics.solution());
-        }
-        ContactStatics statics(*solid,
-                               input.contact->contact(),
-                               contact_newton_parameters(scene,
-                                                         input.progress));
-        statics.run(steps, [&](const ContactStep &step, const Vector &) {
+        const SceneParameters &parameters = input.scene.parameters();
+        EquilibriumParameters  how;
+        how.kinematics = parameters.model.kinematics;
+        how.full       = amplitudes_at_start(input.scene);
+        how.newton = show_iterations(parameters.newton.newton, input.progress);
+        Equilibrium equilibrium(input.solid, input.problem, how, input.contact);
+        LoadSteps   steps = parameters.load_steps.load_steps();
+        // One linear problem needs no steps.
+        if (how.kinematics == Kinematics::small && !parameters.is_nonlinear())
+          steps = LoadSteps();
+        equilibrium.run(steps, [&](const ContactStep &step, const Vector &) {
           ++report.n_steps;
           report.n_iterations += step.n_iterations + step.n_lost_iterations;
           show_load(stage, report, step.load_factor);
-          stop_if_asked(input.covers.communicator());
+          stop_if_asked(input.solid.covers().communicator());
         });
-        keep_materials();
-        return owned_part(input, statics.solution());
+        if (const InelasticTerms *terms =
+              equilibrium.solid_term().inelastic_terms())
+          report.material_state = terms->internal_state();
+        Vector owned(input.solid.covers().locally_owned_dofs(2),
+                     input.solid.covers().communicator());
+        owned = equilibrium.solution();
+        return owned;
       }
 
 
@@ -146,14 +77,14 @@ namespace NMM
                     Progress::Stage  &stage,
                     StartReport      &report)
       {
-        const TimeIntegrator &integrator = relaxing.integrator();
-        RelaxationParameters  parameters =
+        TimeIntegrator      &integrator = relaxing.motion.integrator();
+        RelaxationParameters parameters =
           input.scene.parameters().relaxation.bounded(
-            input.covers.manifold_mesh().physical_mesh());
+            input.solid.physical_mesh());
         parameters.continued_step     = relaxing.continued_step;
         const Vector           begin  = integrator.state().u;
         const RelaxationReport result = relax(
-          relaxing.integrator(),
+          integrator,
           parameters,
           [&](const StepRecord &record) {
             ++report.n_steps;
@@ -169,15 +100,16 @@ namespace NMM
           [&](const double length) {
             if (relaxing.before_step)
               relaxing.before_step(length);
-            stop_if_asked(input.covers.communicator());
+            stop_if_asked(input.solid.covers().communicator());
           });
         if (result.moves_away)
-          refuse_motion(input.covers,
+          refuse_motion(input.solid.covers(),
                         input.problem,
-                        input.quadrature,
+                        input.solid.quadrature(),
                         begin,
                         integrator.state().u);
-        if (const InelasticTerms *terms = relaxing.inelastic_terms())
+        if (const InelasticTerms *terms =
+              relaxing.motion.solid_term().inelastic_terms())
           report.material_state = terms->internal_state();
         return integrator.state().u;
       }
@@ -213,63 +145,44 @@ namespace NMM
     } // namespace
 
 
-    StartRelaxation::StartRelaxation(const StartInput &input)
-      : elasticity(input.covers,
-                   input.quadrature,
-                   input.constraints,
-                   input.problem,
-                   /* may_float = */ true)
+    namespace
     {
-      const SceneParameters &parameters = input.scene.parameters();
-      const LoadAmplitudes   amplitudes = amplitudes_at_start(input.scene);
-      Loading                loading;
-      loading.amplitudes = [amplitudes](const double) { return amplitudes; };
-      const auto mass    = make_mass_matrix(elasticity, input.mass_quadrature);
-      model              = make_solid(elasticity,
-                         parameters.model.kinematics,
-                         std::move(loading),
-                         mass);
-      std::vector<ForceTerm *> terms = {model.get()};
-      if (input.contact != nullptr)
+      MotionParameters
+      start_parameters(const StartInput &input)
       {
-        contact_term =
-          std::make_unique<ContactTerm>(model->layout(),
-                                        input.contact->contact(),
-                                        std::vector<ObstacleRelease>(),
-                                        ContactUpdate::every_step);
-        terms.push_back(contact_term.get());
+        const SceneParameters &parameters = input.scene.parameters();
+        const LoadAmplitudes   amplitudes = amplitudes_at_start(input.scene);
+        TimeParameters         time       = parameters.time;
+        time.scheme                       = TimeParameters::Scheme::automatic;
+        MotionParameters result;
+        result.kinematics         = parameters.model.kinematics;
+        result.scheme             = time.time_scheme(Analysis::relaxation,
+                                         parameters.model.kinematics,
+                                         input.contact != nullptr);
+        result.loading.amplitudes = [amplitudes](double) { return amplitudes; };
+        result.contact_update     = ContactUpdate::every_step;
+        result.is_accounted       = false;
+        result.newton = motion_newton_parameters(input.scene, input.progress);
+        return result;
       }
-      mechanics = std::make_unique<MechanicalModel>(model->layout(), terms);
-
-      TimeParameters time = parameters.time;
-      time.scheme         = TimeParameters::Scheme::automatic;
-      time_integrator     = std::make_unique<TimeIntegrator>(
-        *mechanics,
-        time.time_scheme(Analysis::relaxation,
-                         parameters.model.kinematics,
-                         input.contact != nullptr),
-        motion_newton_parameters(input.scene, input.progress));
-    }
+    } // namespace
 
 
-    InelasticTerms *
-    StartRelaxation::inelastic_terms() const
+    StartRelaxation::StartRelaxation(const StartInput &input)
+      : motion(input.solid,
+               input.problem,
+               start_parameters(input),
+               input.contact)
     {
-      return model->inelastic_terms();
     }
 
 
     NewtonParameters
     motion_newton_parameters(const Scene &scene, Progress &progress)
     {
-      const NewtonParameters &given = scene.parameters().newton.newton;
-      NewtonParameters newton   = TimeIntegrator::default_newton_parameters();
-      newton.residual_tolerance = given.residual_tolerance;
-      // Without contact more iterations would only allow steps to grow that should be cut.
-      if (given.max_iterations != NewtonParameters().max_iterations ||
-          !scene.parameters().is_nonlinear())
-        newton.max_iterations = given.max_iterations;
-      return show_iterations(newton, progress);
+      return newton_in_motion(show_iterations(scene.parameters().newton.newton,
+                                              progress),
+                              scene.parameters().is_nonlinear());
     }
 
 

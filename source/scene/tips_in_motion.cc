@@ -38,7 +38,8 @@ namespace NMM
     ElasticityProblem
     DynamicAnalysis::problem_now() const
     {
-      ElasticityProblem now = problem;
+      ElasticityProblem now     = problem;
+      const Loading    &loading = motion->parameters().loading;
       if (loading.amplitudes)
       {
         const LoadAmplitudes amplitudes = loading.amplitudes(time());
@@ -59,12 +60,12 @@ namespace NMM
     {
       if (!crack_tips)
         return;
-      Vector relevant(model->layout().locally_owned,
-                      model->layout().locally_relevant,
+      Vector relevant(motion->solid_term().layout().locally_owned,
+                      motion->solid_term().layout().locally_relevant,
                       communicator);
-      relevant = integrator->state().a;
-      const DisplacementField u(*covers, problem, displacement()),
-        acceleration(*covers, problem, relevant);
+      relevant = motion->integrator().state().a;
+      const DisplacementField u(solid->covers(), problem, displacement()),
+        acceleration(solid->covers(), problem, relevant);
       std::vector<ContactForce> forces;
       if (contact)
         forces = contact->forces_on_faces();
@@ -101,23 +102,24 @@ namespace NMM
     ElementStress
     DynamicAnalysis::stress_in_material_axes() const
     {
-      const auto u = std::make_shared<const DisplacementField>(*covers,
+      const auto u = std::make_shared<const DisplacementField>(solid->covers(),
                                                                problem,
                                                                displacement());
       if (scene.parameters().model.kinematics != Kinematics::finite)
         return [u](const unsigned int element, const dealii::Point<2> &xi) {
           return u->stress(element, xi);
         };
-      return [u, law = CurrentStress::finite(*elasticity)](
-               const unsigned int element, const dealii::Point<2> &xi) {
-        const Tensor<2, 2> gradient = u->gradient(element, xi);
-        const Tensor<2, 2> rotation = dealii::project_onto_orthogonal_tensors(
-          Tensor<2, 2>(dealii::unit_symmetric_tensor<2>()) + gradient);
-        const dealii::SymmetricTensor<2, 2> stress =
-          law(element, xi, gradient).in_plane;
-        return dealii::symmetrize(transpose(rotation) * Tensor<2, 2>(stress) *
-                                  rotation);
-      };
+      return
+        [u, law = CurrentStress::finite(motion->solid_term().elasticity())](
+          const unsigned int element, const dealii::Point<2> &xi) {
+          const Tensor<2, 2> gradient = u->gradient(element, xi);
+          const Tensor<2, 2> rotation = dealii::project_onto_orthogonal_tensors(
+            Tensor<2, 2>(dealii::unit_symmetric_tensor<2>()) + gradient);
+          const dealii::SymmetricTensor<2, 2> stress =
+            law(element, xi, gradient).in_plane;
+          return dealii::symmetrize(transpose(rotation) * Tensor<2, 2>(stress) *
+                                    rotation);
+        };
     }
 
 
@@ -127,16 +129,17 @@ namespace NMM
     {
       // The rotation R of the mean deformation gradient F = R U.
       const dealii::Point<2> middle(1. / 3., 1. / 3.);
-      const auto [first, last] = covers->locally_owned_elements();
+      const auto [first, last] = solid->covers().locally_owned_elements();
       Tensor<2, 2> local;
       for (unsigned int element = first; element < last; ++element)
         if (std::find(tip.regions.begin(),
                       tip.regions.end(),
-                      manifold_mesh->region(element)) != tip.regions.end() &&
-            manifold_mesh->reference_point(element).distance(tip.point) <
-              tip.free_radius)
+                      solid->manifold_mesh().region(element)) !=
+              tip.regions.end() &&
+            solid->manifold_mesh().reference_point(element).distance(
+              tip.point) < tip.free_radius)
           local +=
-            manifold_mesh->area(element) *
+            solid->manifold_mesh().area(element) *
             (dealii::unit_symmetric_tensor<2>() + u.gradient(element, middle));
       return dealii::project_onto_orthogonal_tensors(
         dealii::Utilities::MPI::sum(local, communicator));
@@ -147,13 +150,13 @@ namespace NMM
     DynamicAnalysis::turned(const DisplacementField &u,
                             const Tensor<2, 2>      &rotation) const
     {
-      std::vector<Tensor<1, 2>> values(covers->n_covers());
+      std::vector<Tensor<1, 2>> values(solid->covers().n_covers());
       for (unsigned int cover = 0; cover < values.size(); ++cover)
       {
-        const dealii::Point<2> &x = covers->node(cover);
+        const dealii::Point<2> &x = solid->covers().node(cover);
         values[cover] = rotation * (x + u.nodal_value(cover)) - Tensor<1, 2>(x);
       }
-      return DisplacementField(*covers, problem, values);
+      return DisplacementField(solid->covers(), problem, values);
     }
   } // namespace internal
 } // namespace NMM

@@ -47,7 +47,7 @@ namespace NMM
             physical_mesh,
             own_mesh_parameters(options.mesh_of_every_block)))
         , mesh(*meshes.manifold_mesh)
-        , covers(mesh, options.communicator)
+        , covers(make_covers(mesh, options.communicator))
         , surface(covers, options.obstacles)
         , aggregation(aggregate(covers))
         , constraints(make_constraints(covers, aggregation, 2))
@@ -175,6 +175,14 @@ namespace NMM
       std::unique_ptr<ContactStatics>   statics;
 
     private:
+      static CoverSystem
+      make_covers(const ManifoldMesh &mesh, const MPI_Comm communicator)
+      {
+        CoverSystem covers(mesh, communicator);
+        covers.make_boundary_relevant();
+        return covers;
+      }
+
       static OwnMeshParameters
       own_mesh_parameters(const bool every_region)
       {

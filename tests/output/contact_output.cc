@@ -1,3 +1,4 @@
+#include <nmm/contact/diagnostics/face_forces.h>
 #include <nmm/covers/manifold_mesh.h>
 #include <nmm/output/contact_output.h>
 

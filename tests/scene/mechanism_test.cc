@@ -1,9 +1,9 @@
 #include <nmm/geometry/physical_mesh.h>
 #include <nmm/scene/scene_parameters_dynamics.h>
 
+#include <analysis/mechanism.h>
 #include <gtest/gtest.h>
 #include <limits>
-#include <scene/mechanism.h>
 
 using namespace NMM;
 using namespace NMM::internal;

@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/contact/chosen_parameters.h>
 #include <nmm/covers/manifold_mesh.h>
 #include <nmm/covers/own_meshes.h>
 #include <nmm/scene/parameter_tree.h>

@@ -1,6 +1,7 @@
 // The examples in the overview comments of the rooms compile: each stands below as well, between
 // "// Example of HEADER" and "// End", in a function with what it needs. The test compares both texts.
 
+#include <nmm/analysis/simulation.h>
 #include <nmm/base/program.h>
 #include <nmm/contact/assembly/statics.h>
 #include <nmm/contact/assembly/term.h>
@@ -324,6 +325,28 @@ namespace
   }
 
 
+  [[maybe_unused]] void
+  analysis(const Geometry                    &geometry,
+           const RegularMeshParameters       &mesh,
+           const SimulationParameters        &parameters,
+           const StageChange                 &excavation,
+           const StepControlParameters       &steps,
+           const std::function<void(double)> &print)
+  {
+    // clang-format off
+    // Example of analysis/simulation.h
+    const Solid solid(geometry, mesh, MPI_COMM_WORLD);
+    Simulation  simulation(solid, parameters);
+    simulation.observe([&](const Simulation &now) { print(now.load_factor()); });
+    simulation.equilibrate(LoadSteps::equal(10));
+    simulation.apply(excavation);
+    simulation.equilibrate();
+    simulation.advance(1., steps);
+    // End
+    // clang-format on
+  }
+
+
   // clang-format off
   // Example of mechanics/force_term.h
   class Band : public ForceTerm                    // a spring of the natural length 0
@@ -449,6 +472,7 @@ namespace
                                      "contact/contact.h",
                                      "fracture/fracture.h",
                                      "dynamics/time_integrator.h",
+                                     "analysis/simulation.h",
                                      "mechanics/force_term.h",
                                      "output/output.h",
                                      "scene/scene.h"})

@@ -97,6 +97,10 @@ namespace NMM
     void
     make_relevant(std::vector<dealii::types::global_dof_index> covers);
 
+    /// The same for the covers of all elements at a curve, which contact needs on all ranks.
+    void
+    make_boundary_relevant();
+
   private:
     /// Number of layers of elements around the owned ones whose covers are relevant; the
     /// recovery of stresses needs them.

@@ -57,18 +57,6 @@ namespace NMM
   gather_contact_points(const ContactSurface            &surface,
                         const std::vector<ContactPoint> &points);
 
-  /// Force that the solid exerts on each obstacle, per unit thickness [N/m], in the order of the
-  /// obstacles of @p surface. Collective.
-  std::vector<dealii::Tensor<1, 2>>
-  obstacle_forces(const ContactSurface            &surface,
-                  const std::vector<ContactPoint> &points);
-
-  /// Largest pressure per reference length over the closed points of all ranks [Pa]; 0 if there is
-  /// none. Collective.
-  double
-  largest_pressure(const ContactSurface            &surface,
-                   const std::vector<ContactPoint> &points);
-
   /// Adds the obstacles to a picture, and those closed @p points whose traction is at least
   /// @p least [Pa]. The points come from gather_contact_points().
   void

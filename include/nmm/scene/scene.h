@@ -46,16 +46,6 @@
  */
 namespace NMM
 {
-  /// The control of the obstacles of a scene: their releases, and a switch that holds them.
-  struct ObstacleSwitches
-  {
-    /// The obstacles that are removed at some time.
-    std::vector<ObstacleRelease> releases;
-    /// While true, obstacles are at their positions of t = 0 for any time.
-    std::shared_ptr<bool> is_frozen;
-  };
-
-
   /**
    * A scene that was read from a file: its parameters, and functions that make the objects they
    * describe. The file format is in doc/scene-format.md.
@@ -154,26 +144,15 @@ namespace NMM
     Loading
     make_loading() const;
 
-    /// The rigid bodies that the solid can touch, with restraints last. @p switches receives their
-    /// releases and may be null if none is ever released. @throws InputError for a shape or an
+    /// The rigid bodies that the solid can touch, with restraints last. @p releases receives those
+    /// that are removed at some time, and may be null. @throws InputError for a shape or an
     /// expression that cannot be parsed, and for a name that a curve of @p physical_mesh has.
     std::vector<RigidObstacle>
-    make_obstacles(const PhysicalMesh &physical_mesh,
-                   ObstacleSwitches   *switches = nullptr) const;
+    make_obstacles(const PhysicalMesh           &physical_mesh,
+                   std::vector<ObstacleRelease> *releases = nullptr) const;
 
-    /**
-     * The contact laws between the faces of @p surface. Values that the scene leaves open are
-     * chosen as follows, where E is Young's modulus of the softest block and h is
-     * contact_cell_size(). The normal stiffness is 10 E/h (30 E/h in a static analysis by penalty);
-     * the shear stiffness is E/h (10 E/h in dynamics), but not more than the normal one; the
-     * penetration tolerance of the augmented Lagrangian is 1e-5 h. For springs at points h is 1 m.
-     * If the mesh is graded towards crack tips, the shear stiffness is the normal one, and between
-     * the faces of a crack with a tip, whose factors depend on it, h is the cell size that a tenth of
-     * all edges at faces lies below, but at least 0.003 of the smallest free radius of a tip. All
-     * other faces do not become stiffer by the cells at tips. Of two blocks, the
-     * softer one is the slave, which carries the contact points.
-     * @throws InputError for a law between faces that do not exist.
-     */
+    /// The contact laws between the faces of @p surface; what the scene leaves open is chosen by
+    /// choose_contact_parameters(). @throws InputError for a law between faces that do not exist.
     ContactParameters
     make_contact_parameters(const ContactSurface    &surface,
                             const ElasticityProblem &problem) const;
@@ -241,17 +220,6 @@ namespace NMM
     void
     check_law_names(const ContactSurface &surface) const;
   };
-
-
-  /**
-   * Edge length of the smaller cells at faces [m]: a twentieth of the length of all faces lies in
-   * cells that are smaller. Cells that are small about a tip or in a corner are many, but at a small part
-   * of the faces: with cells of the size g r at the distance r of a tip, n of them per face reach
-   * from r to (1 + g)^n r, so that half of the edges may lie within a thousandth of the length.
-   * Slivers (PhysicalMesh::Region::is_sliver) are left out.
-   */
-  double
-  contact_cell_size(const ContactSurface &surface);
 } // namespace NMM
 
 #endif

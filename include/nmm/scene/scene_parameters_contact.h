@@ -80,13 +80,13 @@ namespace NMM
     /// Laws between certain faces; of several laws that fit, the first one is used.
     std::vector<ContactLawParameters> laws;
     /// Mean penetration that the augmented Lagrangian allows [m]; 0 stands for
-    /// Scene::make_contact_parameters().
+    /// choose_contact_parameters().
     double penetration_tolerance = 0.;
     /// Distance within which faces are searched [m]; 0 stands for a tenth of the longest edge of an
     /// element.
     double reach = 0.;
     /// Length of the faces at locked corners that gives way [m]; 0 stands for
-    /// Scene::make_contact_parameters().
+    /// choose_contact_parameters().
     double corner_rounding = 0.;
     /// Penetration above which a step fails [m]; 0 stands for the cell size at faces.
     double max_penetration = 0.;

@@ -130,7 +130,7 @@ namespace NMM
   } // namespace
 
 
-  ContactSurface::ContactSurface(CoverSystem               &covers,
+  ContactSurface::ContactSurface(const CoverSystem         &covers,
                                  std::vector<RigidObstacle> obstacles)
     : cover_pointer(&covers)
     , rigid_obstacles(std::move(obstacles))
@@ -146,11 +146,14 @@ namespace NMM
     is_body_absent.assign(n_bodies(), false);
     set_time(0.);
 
-    std::vector<dealii::types::global_dof_index> relevant;
     for (unsigned int e = 0; e < all_edges.size(); ++e)
       for (const unsigned int cover : this->covers(e))
-        relevant.push_back(cover);
-    covers.make_relevant(std::move(relevant));
+      {
+        (void)cover;
+        Assert(covers.locally_relevant_covers().is_element(cover),
+               dealii::ExcMessage(
+                 "Call CoverSystem::make_boundary_relevant() first."));
+      }
     set_start_weights();
   }
 

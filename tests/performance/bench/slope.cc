@@ -54,12 +54,12 @@ namespace NMM
         Stopwatch   watch;
         const Scene scene(NMM_SOURCE_DIR "/applications/nmm/scenes/slope.prm",
                           {"Contact/Friction angle=20"});
-        ObstacleSwitches switches;
-        Bodies::Options  options;
+        std::vector<ObstacleRelease> releases;
+        Bodies::Options              options;
         options.cell_size           = 10.;
         options.mesh_of_every_block = true;
         options.obstacles =
-          scene.make_obstacles(PhysicalMesh(scene.make_geometry()), &switches);
+          scene.make_obstacles(PhysicalMesh(scene.make_geometry()), &releases);
         row.geometry = watch.lap();
         MovingBodies bodies(scene.make_geometry(), options);
         bodies.problem = scene.make_problem();
@@ -70,10 +70,8 @@ namespace NMM
         const Vector u = bodies.find_rest(1e-3, 1e-7);
         row.solution   = watch.lap();
 
-        ContactTerm     contact(bodies.solid->layout(),
-                            *bodies.contact,
-                            switches.releases);
-        TimedTerm       elastic(*bodies.solid), touch(contact);
+        ContactTerm contact(bodies.solid->layout(), *bodies.contact, releases);
+        TimedTerm   elastic(*bodies.solid), touch(contact);
         MechanicalModel all(bodies.solid->layout(), {&elastic, &touch});
         TimeIntegrator  integrator(all, TimeScheme::energy_momentum());
         integrator.initialize(u, bodies.zero());

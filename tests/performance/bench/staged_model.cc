@@ -31,9 +31,11 @@ namespace NMM
 
       covers =
         std::make_unique<CoverSystem>(*manifold_mesh, options.communicator);
-      // before aggregation: it makes the covers of all faces relevant to every rank
       if (options.has_contact)
+      {
+        covers->make_boundary_relevant();
         surface = std::make_unique<ContactSurface>(*covers, options.obstacles);
+      }
       if (options.stabilization == Stabilization::aggregation)
       {
         aggregation = aggregate(*covers);

@@ -149,12 +149,12 @@ namespace NMM
     };
 
     /**
-     * Collect all edges. In the numbering of bodies @p obstacles follow the blocks. The covers of
-     * all edges are made relevant to all ranks, so vectors have to be laid out afterwards.
+     * Collect all edges. In the numbering of bodies @p obstacles follow the blocks.
+     * @pre The covers of all edges are relevant, see CoverSystem::make_boundary_relevant().
      * @throws InputError for an obstacle whose pieces do not follow each other,
      * have no length or are full circles.
      */
-    explicit ContactSurface(CoverSystem               &covers,
+    explicit ContactSurface(const CoverSystem         &covers,
                             std::vector<RigidObstacle> obstacles = {});
 
     ContactSurface(const ContactSurface &) = delete;
@@ -346,7 +346,7 @@ namespace NMM
                       const std::vector<dealii::Tensor<1, 2>> &nodal,
                       EdgeDisplacement &displacement) const;
 
-    CoverSystem                      *cover_pointer;
+    const CoverSystem                *cover_pointer;
     std::vector<RigidObstacle>        rigid_obstacles;
     std::vector<dealii::Tensor<1, 2>> obstacle_displacements;
     std::vector<Edge>                 all_edges;

@@ -1,5 +1,5 @@
-#ifndef nmm_source_scene_mechanism_h
-#define nmm_source_scene_mechanism_h
+#ifndef nmm_source_analysis_mechanism_h
+#define nmm_source_analysis_mechanism_h
 
 #include <nmm/contact/assembly/statics.h>
 #include <nmm/mechanics/block_motion.h>

@@ -1,9 +1,9 @@
 #include <nmm/base/exceptions.h>
 
 #include <algorithm>
+#include <analysis/mechanism.h>
 #include <cmath>
 #include <contact/diagnostics/collapse.h>
-#include <scene/mechanism.h>
 #include <sstream>
 
 namespace NMM

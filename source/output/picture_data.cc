@@ -1,5 +1,6 @@
 #include <nmm/covers/point_location.h>
 #include <nmm/output/picture_data.h>
+#include <nmm/output/picture_scale.h>
 
 #include <deal.II/base/mpi.h>
 

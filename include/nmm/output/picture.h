@@ -6,7 +6,6 @@
 #include <nmm/output/picture_scale.h>
 
 #include <array>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -71,20 +70,6 @@ namespace NMM
     double           minimum = 1e300, maximum = -1e300;
     double           largest = 0.;
   };
-
-  /// Factor on displacements [-] with which the largest one appears as 5 % of the @p diagonal of
-  /// the solid's box [m] or a little less, and does not close the smallest hole [m]. It is 1, 2 or
-  /// 5 times a power of ten, or 0 if displacements are rounding errors.
-  double
-  choose_deformation_scale(
-    double largest_displacement,
-    double diagonal,
-    double smallest_hole = std::numeric_limits<double>::infinity());
-
-  /// Shorter side of the box around the smallest hole, or around what a tied joint surrounds, which may
-  /// be excavated [m]; infinity if there is neither.
-  double
-  smallest_hole(const PhysicalMesh &mesh);
 
   /**
    * Draws a picture into the PNG file @p file_name: the triangles with smooth shading in a

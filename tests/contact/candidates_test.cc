@@ -1,7 +1,7 @@
 // Which faces the search takes for candidates, and what it costs.
 
 #include <contact/contact_model.h>
-#include <contact/detection/search.h>
+#include <contact/detection/narrow_phase.h>
 
 using namespace NMM;
 using namespace NMM::Test;
@@ -9,6 +9,7 @@ using namespace NMM::Test;
 namespace
 {
   using internal::ContactSearch;
+  using internal::NarrowPhase;
 
 
   /// A block that moves fast looks further, and so do the others towards it; among themselves they
@@ -101,7 +102,8 @@ namespace
       for (unsigned int i = 0; i < search.slaves().size(); ++i)
         if (search.corner(i) == 2)
           n_projections +=
-            search.divisions(i).size() * search.masters(i).size();
+            NarrowPhase(bodies.surface, search).divisions(i).size() *
+            search.masters(i).size();
       const auto &done = search.statistics();
       counts.push_back({bodies.surface.edges().size(),
                         done.n_boxes,

@@ -3,7 +3,7 @@
 #include <nmm/contact/assembly/time_step.h>
 
 #include <contact/contact_model.h>
-#include <contact/detection/search.h>
+#include <contact/detection/narrow_phase.h>
 #include <contact/random_polygons.h>
 
 using namespace NMM;
@@ -13,6 +13,7 @@ namespace
 {
   using internal::ContactProjection;
   using internal::ContactSearch;
+  using internal::NarrowPhase;
   using Place = ContactSurface::Place;
 
 
@@ -173,10 +174,18 @@ namespace
       const Tensor<1, 2> other_normal =
         other == invalid_index ? Tensor<1, 2>()
                                : surface.place(other, 1. - corner).normal();
-      const ContactProjection found = search.project_corner(
-        place, other_normal, {near.data(), near.size()}, invalid_index);
-      const ContactProjection among_all = search.project_corner(
-        place, other_normal, {all.data(), all.size()}, invalid_index);
+      const ContactProjection found =
+        NarrowPhase(surface, search)
+          .project_corner(place,
+                          other_normal,
+                          {near.data(), near.size()},
+                          invalid_index);
+      const ContactProjection among_all =
+        NarrowPhase(surface, search)
+          .project_corner(place,
+                          other_normal,
+                          {all.data(), all.size()},
+                          invalid_index);
       EXPECT_EQ(found.master, among_all.master);
       EXPECT_EQ(found.gap, among_all.gap);
       n_corners += found.master != invalid_index;
@@ -200,9 +209,9 @@ namespace
       const auto near = masters_of(edge, slave_to_position[edge]),
                  all  = all_masters_of(edge, false);
       const ContactProjection found =
-        search.project(place, {near.data(), near.size()});
+        NarrowPhase(surface, search).project(place, {near.data(), near.size()});
       const ContactProjection among_all =
-        search.project(place, {all.data(), all.size()});
+        NarrowPhase(surface, search).project(place, {all.data(), all.size()});
       EXPECT_EQ(found.master, among_all.master);
       EXPECT_EQ(found.gap, among_all.gap);
       if (!reference.empty())
@@ -342,7 +351,8 @@ namespace
           for (const double s : {0.1, 0.5, 0.9})
           {
             const ContactProjection found =
-              search.project(bodies.surface.place(slave, s), search.masters(i));
+              NarrowPhase(bodies.surface, search)
+                .project(bodies.surface.place(slave, s), search.masters(i));
             if (name == "lower top" || name == "upper bottom")
             {
               ASSERT_NE(found.master, invalid_index);
@@ -407,12 +417,13 @@ namespace
             continue;
           const unsigned int other =
             end == 0 ? edges[slave].previous : edges[slave].next;
-          const ContactProjection found = search.project_corner(
-            place,
-            bodies.surface.place(other, 1. - end).normal(),
-            search.masters(i),
-            invalid_index,
-            internal::AdmittedContact());
+          const ContactProjection found =
+            NarrowPhase(bodies.surface, search)
+              .project_corner(place,
+                              bodies.surface.place(other, 1. - end).normal(),
+                              search.masters(i),
+                              invalid_index,
+                              internal::AdmittedContact());
           ASSERT_NE(found.master, invalid_index);
           EXPECT_NEAR(found.gap, gap, 1e-12);
           ++n;
@@ -430,7 +441,7 @@ namespace
   TEST(ContactDetection, AlongUpTo18DegreesAtCornersFrom37)
   {
     const auto along = [](const double degrees) {
-      return ContactSearch::along_face(
+      return NarrowPhase::along_face(
         std::cos(degrees * dealii::numbers::PI / 180.));
     };
     EXPECT_EQ(along(0.), 1.);
@@ -491,7 +502,8 @@ namespace
           {
             const Place             place = bodies.surface.place(slave, s);
             const ContactProjection found =
-              search.project(place, search.masters(i));
+              NarrowPhase(bodies.surface, search)
+                .project(place, search.masters(i));
             is_whole = is_whole && found.master != invalid_index;
             if (found.master == invalid_index)
               continue;
@@ -713,7 +725,8 @@ namespace
           {
             const Place place = bodies.surface.place(search.slaves()[i], s);
             const ContactProjection found =
-              search.project(place, search.masters(i));
+              NarrowPhase(bodies.surface, search)
+                .project(place, search.masters(i));
             if (found.master == invalid_index)
               continue;
             const unsigned int m =

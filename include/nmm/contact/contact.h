@@ -23,11 +23,11 @@
  *
  * | folder (in nmm/contact and source/contact) | what is there |
  * |---|---|
- * | surface | faces of the solid and of obstacles, their positions, and the initial stress at them |
- * | detection | broad phase: pairs of faces that may touch (search.h, candidates); contact points on them (points.h, point_maker.h); the face that a point touches (nearest.cc, point_projector.h); rules where faces end, with all their numbers (corner_rules.h); paths that cross within a step (crossings.h) |
- * | law | pressure and strength: the interface (law.h), a file for each law, and the list of them (registered_laws.cc) |
- * | state | a contact point, what it remembers from step to step, multipliers, and how an accepted state is kept (commit.cc) or carried to a solid that is cut again |
- * | assembly | traction of a point by its law (traction.cc), its forces and derivatives (point_terms.h), the matrix, time steps that conserve energy (time_step.h), the force term (term.h) and statics (statics.h) |
+ * | surface | faces of the solid and of obstacles, their positions, those of a step (step_states.h), and the initial stress at them |
+ * | detection | candidate pairs and contact points of a step (detection.h): broad phase (search.h), points (point_maker.h); the face that a point touches (narrow_phase.h, point_projector.h) and what the point takes over from it (point_updater.h); rules where faces end, with all their numbers (corner_rules.h); paths that cross within a step (crossings.h) |
+ * | law | pressure and strength: the interface (law.h), a file for each law, and the list of them (registered_laws.cc); traction of a point by its law now (tractions.h) and in a step that conserves energy (step_tractions.h) |
+ * | state | a contact point, what it remembers from step to step (memory.h), multipliers, and how an accepted state is kept (commit.cc) or carried to a solid that is cut again |
+ * | assembly | one point from projection to forces (point_forces.cc), their formulas (point_terms.h), the matrix, sums over points, time steps that conserve energy (time_step.h), the force term (term.h) and statics (statics.h) |
  * | diagnostics | why a step must not be accepted, what gives way, corners that lock, overlaps |
  *
  * Order of calls: see Contact. To add a law, see ContactLaw.
@@ -93,23 +93,22 @@ namespace NMM
    *
    *   detected <---- detect(), from any stage
    *
-   *   step_begun <-- ContactTimeStep::begin(), from detected, assembled, step_begun,
-   *                  step_assembled and step_ended
+   *   step_begun <-- ContactTimeStep::begin(), from all but created and accepted
    *
    *   stage               assemble()   ContactTimeStep::   augment()   accept()
    *   before                           assemble()
    *   created             -            -                   -           -
    *   detected, accepted  assembled    -                   -           -
    *   step_begun          assembled    step_assembled      -           -
-   *   assembled           assembled    -                   assembled   accepted
-   *   step_assembled      step_ended   step_assembled      -           -
-   *   step_ended          step_ended   step_assembled      -           step_accepted
-   *   step_accepted       step_ended   -                   -           -
+   *   step_assembled      assembled    step_assembled      -           -
+   *   assembled           assembled    (step_assembled)    (assembled) accepted
    * @endverbatim
-   * All other functions may be called at any stage; those that speak of the last assembly are
-   * meaningful from an assembly until the next detect(). That an assembly before accept() is at the
-   * solution is up to the caller. Where obstacles move, set_time() with the time of the
-   * displacements comes before each detect() and assemble().
+   * At the end of a step of ContactTimeStep::assemble(), that function may follow assemble(), and
+   * augment() may not; elsewhere it is the other way round. All other functions may be called at
+   * any stage; those that speak of the last assembly are meaningful from an assembly until the next
+   * detect(). That an assembly before accept() is at the solution is up to the caller. Where
+   * obstacles move, set_time() with the time of the displacements comes before each detect() and
+   * assemble().
    *
    * Statics: detect(), then assemble() in each iteration, with detect() between them where
    * faces have moved far; at the solution augment() until it returns less than the tolerance,

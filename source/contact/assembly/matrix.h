@@ -7,10 +7,10 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
-#include <contact/assembly/chosen_bodies.h>
 #include <contact/assembly/point_terms.h>
 #include <contact/detection/points.h>
 #include <contact/detection/search.h>
+#include <contact/surface/chosen_bodies.h>
 #include <linear_algebra/cover_matrix_assembler.h>
 #include <memory>
 #include <vector>

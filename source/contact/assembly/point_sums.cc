@@ -1,9 +1,9 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <contact/assembly/point_springs.h>
 #include <contact/assembly/point_sums.h>
 #include <contact/detection/corner_rules.h>
+#include <contact/law/point_springs.h>
 
 namespace NMM
 {
@@ -16,7 +16,7 @@ namespace NMM
                          const ContactSearch  &search,
                          const PointMaker     &maker)
       : surface(&surface)
-      , search(&search)
+      , narrow(surface, search)
       , maker(&maker)
     {
     }
@@ -33,8 +33,7 @@ namespace NMM
     void
     PointSums::add(const ContactPoint &point,
                    const PointData    &fixed,
-                   const PointForces  &forces,
-                   const bool          is_between)
+                   const PointForces  &forces)
     {
       of_points.n_changes += forces.has_changed;
       of_points.energy += forces.energy;
@@ -45,10 +44,10 @@ namespace NMM
       ++(point.state == ContactState::stick ? of_points.n_stick
                                             : of_points.n_slip);
       of_points.n_bonded += point.is_bonded;
-      largest_depth = std::max(largest_depth,
-                               (is_between ? fixed.offset_end : fixed.offset) +
-                                 point.opening - initial_closure(point, fixed) -
-                                 forces.projection.gap);
+      largest_depth =
+        std::max(largest_depth,
+                 forces.offset + point.opening - initial_closure(point, fixed) -
+                   forces.projection.gap);
       of_points.force += forces.force;
       rounding_square += forces.rounding_square;
     }
@@ -88,7 +87,7 @@ namespace NMM
                               const ContactProjection &projection) const
     {
       const double curvature =
-        search->relative_curvature(point.edge, projection.master);
+        narrow.relative_curvature(point.edge, projection.master);
       if (fixed.corner != PointKind::along || curvature <= 0.)
         return {0., 0.};
       const Tensor<1, 2> a      = surface->place(point.edge, point.s).a;
@@ -130,11 +129,11 @@ namespace NMM
         const ContactSurface::Place deepest_place =
           way == 0. ? here
                     : surface->place(point.edge, point.s + way / here.a.norm());
-        depth = std::min(
-          depth,
-          search->depth_inside(fixed.slave,
-                               surface->edges()[projection.master].body,
-                               deepest_place.x));
+        depth =
+          std::min(depth,
+                   narrow.depth_inside(fixed.slave,
+                                       surface->edges()[projection.master].body,
+                                       deepest_place.x));
       }
       of_points.largest_penetration =
         std::max(of_points.largest_penetration, depth);

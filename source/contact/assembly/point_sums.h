@@ -32,8 +32,10 @@ namespace NMM
       /// the largest penetration, and whether it exerts forces.
       bool has_changed = false, is_near = false, has_forces = false;
       ContactProjection projection;
-      /// Energy of its springs [J/m], and square of force_rounding() [N^2/m^2].
+      /// Energy of its springs [J/m], and square of the estimated rounding of its force [N^2/m^2].
       double energy = 0., rounding_square = 0.;
+      /// Gap at which its spring is at rest, without what opens it [m].
+      double offset = 0.;
       /// Force on the slave [N/m]; set if there are forces, and so is the local system.
       dealii::Tensor<1, 2> force;
       ContactLocalSystem   local;
@@ -55,12 +57,10 @@ namespace NMM
       void
       begin();
 
-      /// Add a point. @p is_between: whether it is one of a conserving step.
       void
       add(const ContactPoint &point,
           const PointData    &fixed,
-          const PointForces  &forces,
-          bool                is_between);
+          const PointForces  &forces);
 
       void
       add_changes(const unsigned int n)
@@ -68,7 +68,8 @@ namespace NMM
         of_points.n_changes += n;
       }
 
-      /// Complete the sums of all ranks. @p n_points: number of points of this rank.
+      /// Complete the sums of all ranks. @p n_points: number of points of this rank; @p is_between:
+      /// whether they are those of a conserving step.
       void
       end(unsigned int n_points, bool is_between);
 
@@ -107,7 +108,7 @@ namespace NMM
                      const ContactProjection &projection) const;
 
       const ContactSurface *surface;
-      const ContactSearch  *search;
+      NarrowPhase           narrow;
       const PointMaker     *maker;
       ContactReport         of_points;
       double                largest_depth = 0., rounding_square = 0.;

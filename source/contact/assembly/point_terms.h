@@ -4,6 +4,7 @@
 #include <nmm/contact/surface/surface.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace NMM
 {
@@ -99,6 +100,24 @@ namespace NMM
       double pressure_by_slip = 0.;
       /// Normal distance n . (x_s - x_0) from the anchor x_0 [m].
       double normal_distance = 0.;
+      /// Energy of the springs [J/m].
+      double energy = 0.;
+      /// For time steps: motion of the slave relative to the master [m]; derivatives of the mean
+      /// pressure, times the weight, by the gap at the end, by the relative normal motion, and
+      /// where faces turn [N/m^2].
+      dealii::Tensor<1, 2> motion;
+      double pressure_by_gap = 0., pressure_by_opening = 0., by_turning = 0.;
+
+      /// Bound on the derivative of both by the distance of the faces [N/m^2].
+      double
+      stiffness() const
+      {
+        return (1. + std::abs(shear_over_pressure)) *
+                 (normal_stiffness + std::abs(pressure_by_slip) +
+                  std::abs(pressure_by_gap) + std::abs(pressure_by_opening) +
+                  by_turning) +
+               shear_stiffness + std::abs(shear_by_half_slip);
+      }
     };
 
 

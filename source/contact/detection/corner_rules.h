@@ -170,13 +170,13 @@ namespace NMM
        * Rules without a number, where they are applied, and their tests (in each case without
        * the rule):
        * - A corner is pushed out through the face by which it came in (entrance edge),
-       *   ContactSearch::project_corner(): ContactScales.TenDecadesOfWeightAndStiffness.
+       *   NarrowPhase::project_corner(): ContactScales.TenDecadesOfWeightAndStiffness.
        * - A corner that is in front of the other face of the master's corner is outside,
        *   the same function: ContactDetection.RandomPolygonsAgainstBruteForce.
        * - The same if the face round the corner begins with edges much shorter than the distance,
-       *   ContactSearch::gap_beyond_corner(): ContactDetection.CornerOnTheFaceRoundACorner.
+       *   NarrowPhase::gap_beyond_corner(): ContactDetection.CornerOnTheFaceRoundACorner.
        * - Of two faces that meet in a convex corner the one that faces the point more is taken,
-       *   ContactSearch::project_within(): ContactPatch.InclinedJointsUnderHydrostaticPressure.
+       *   NarrowPhase::project_within(): ContactPatch.InclinedJointsUnderHydrostaticPressure.
        * - A corner that touches only at one end of a step stays with the face of that end,
        *   PointProjector::stay_with_face_of_end(): ContactSteps.CornerBesideACorner.
        * - A corner beyond a concave end belongs to the face that begins there,

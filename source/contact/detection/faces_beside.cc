@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <contact/detection/corner_rules.h>
-#include <contact/detection/search.h>
+#include <contact/detection/narrow_phase.h>
 #include <limits>
 
 namespace NMM
@@ -13,11 +13,39 @@ namespace NMM
     using Place = ContactSurface::Place;
     using namespace CornerRules;
 
+    namespace
+    {
+      /// Length of the part of an edge that lies behind a face and ends at a corner of the edge [m];
+      /// infinite if the edge continues behind the face beyond its end.
+      double
+      length_behind(const ContactSurface &surface,
+                    const unsigned int    edge,
+                    const Place          &face)
+      {
+        const auto           &at    = surface.edges()[edge];
+        const ContactPosition start = surface.place(edge, 0.).x,
+                              end   = surface.place(edge, 1.).x;
+        const Tensor<1, 2> normal   = face.normal();
+        const double       at_start = (start - face.x) * normal,
+                     at_end         = (end - face.x) * normal;
+        if (at_start >= 0. && at_end >= 0.)
+          return 0.;
+        const bool starts_behind = at_start < 0.;
+        if ((starts_behind && at_end < 0.) ||
+            (starts_behind ? at.at_start : at.at_end) !=
+              ContactSurface::Corner::convex)
+          return std::numeric_limits<double>::max();
+        return start.distance(end) * std::min(at_start, at_end) /
+               -std::abs(at_end - at_start);
+      }
+    } // namespace
+
+
     double
-    ContactSearch::gap_beyond_corner(const unsigned int     edge,
-                                     const ContactPosition &x,
-                                     const Tensor<1, 2>    &normal,
-                                     const Tensor<1, 2>    &other_normal) const
+    NarrowPhase::gap_beyond_corner(const unsigned int     edge,
+                                   const ContactPosition &x,
+                                   const Tensor<1, 2>    &normal,
+                                   const Tensor<1, 2>    &other_normal) const
     {
       constexpr auto smooth = ContactSurface::Corner::smooth;
       const auto    &edges  = surface->edges();
@@ -54,12 +82,12 @@ namespace NMM
 
 
     double
-    ContactSearch::depth_inside(const unsigned int     position,
-                                const unsigned int     body,
-                                const ContactPosition &x) const
+    NarrowPhase::depth_inside(const unsigned int     position,
+                              const unsigned int     body,
+                              const ContactPosition &x) const
     {
-      double nearest = reach, gap = 0.;
-      for (const unsigned int master : masters(position))
+      double nearest = reach(), gap = 0.;
+      for (const unsigned int master : search->masters(position))
       {
         double t;
         Place  place;
@@ -71,7 +99,7 @@ namespace NMM
         const double distance = x.distance(end.x);
         const double now      = (x - end.x) * end.normal();
         // At the corner of two edges, the edge with the larger normal distance determines the side.
-        const bool is_tied = std::abs(distance - nearest) <= same_gap * reach;
+        const bool is_tied = std::abs(distance - nearest) <= same_gap * reach();
         if (is_tied ? std::abs(now) > std::abs(gap) : distance < nearest)
         {
           nearest = distance;
@@ -82,33 +110,11 @@ namespace NMM
     }
 
 
-    double
-    ContactSearch::length_behind(const unsigned int edge,
-                                 const Place       &face) const
-    {
-      const auto           &at    = surface->edges()[edge];
-      const ContactPosition start = surface->place(edge, 0.).x,
-                            end   = surface->place(edge, 1.).x;
-      const Tensor<1, 2> normal   = face.normal();
-      const double       at_start = (start - face.x) * normal,
-                   at_end         = (end - face.x) * normal;
-      if (at_start >= 0. && at_end >= 0.)
-        return 0.;
-      const bool starts_behind = at_start < 0.;
-      if ((starts_behind && at_end < 0.) ||
-          (starts_behind ? at.at_start : at.at_end) !=
-            ContactSurface::Corner::convex)
-        return std::numeric_limits<double>::max();
-      return start.distance(end) * std::min(at_start, at_end) /
-             -std::abs(at_end - at_start);
-    }
-
-
     bool
-    ContactSearch::is_beside(const unsigned int     edge,
-                             const ContactPosition &x,
-                             const unsigned int     master,
-                             const double           depth) const
+    NarrowPhase::is_beside(const unsigned int     edge,
+                           const ContactPosition &x,
+                           const unsigned int     master,
+                           const double           depth) const
     {
       const auto &edges = surface->edges();
       for (const bool forward : {true, false})
@@ -128,7 +134,8 @@ namespace NMM
           Place  place;
           if (is_convex && find_nearest(e, x, t, place) && t >= 0. && t <= 1. &&
               std::abs((x - place.x) * place.normal()) < depth &&
-              length_behind(edge, place) < longest_overlap_beside * depth)
+              length_behind(*surface, edge, place) <
+                longest_overlap_beside * depth)
             return true;
           way += edges[e].length;
         }
@@ -138,7 +145,7 @@ namespace NMM
 
 
     void
-    ContactSearch::append_faces_beside(
+    NarrowPhase::append_faces_beside(
       const unsigned int                          edge,
       const ContactPosition                      &x,
       const dealii::ArrayView<const unsigned int> masters,
@@ -149,7 +156,7 @@ namespace NMM
       {
         const Place  middle = surface->place(master, 0.5);
         const double behind = (middle.x - x) * middle.normal();
-        if (behind > depth && behind <= reach &&
+        if (behind > depth && behind <= reach() &&
             is_beside(edge, x, master, behind))
           faces.push_back(master);
       }

@@ -28,6 +28,17 @@ namespace NMM
     }
 
 
+    std::vector<unsigned int>
+    PointSet::near_slaves() const
+    {
+      std::vector<unsigned int> result;
+      result.reserve(near_points.size());
+      for (const unsigned int q : near_points)
+        result.push_back(data[q].slave);
+      return result;
+    }
+
+
     PointMaker::PointMaker(const ContactSurface    &surface,
                            const ContactSearch     &search,
                            const ContactParameters &parameters,
@@ -35,6 +46,7 @@ namespace NMM
                            const Multipliers       &multipliers)
       : surface(&surface)
       , search(&search)
+      , narrow(surface, search)
       , parameters(&parameters)
       , memory(&memory)
       , multipliers(&multipliers)
@@ -44,10 +56,10 @@ namespace NMM
     }
 
 
-    PointSet
-    PointMaker::make(const bool with_faces_beside) const
+    void
+    PointMaker::make(const bool with_faces_beside, PointSet &result) const
     {
-      PointSet result;
+      result.clear();
       for_each_in_order<PointSet>(
         0,
         search->slaves().size(),
@@ -61,7 +73,6 @@ namespace NMM
             find_faces_beside(made);
         },
         [&](unsigned int, const PointSet &made) { result.append(made); });
-      return result;
     }
 
 
@@ -73,12 +84,12 @@ namespace NMM
         PointData         &fixed = made.data[q];
         const unsigned int edge  = made.points[q].edge;
         fixed.beside_begin       = made.faces_beside.size();
-        search->append_faces_beside(edge,
-                                    surface->place(edge, made.points[q].s).x,
-                                    masters_of(*search, fixed),
-                                    CornerRules::least_depth_beside *
-                                      size_at(fixed),
-                                    made.faces_beside);
+        narrow.append_faces_beside(edge,
+                                   surface->place(edge, made.points[q].s).x,
+                                   masters_of(*search, fixed),
+                                   CornerRules::least_depth_beside *
+                                     size_at(fixed),
+                                   made.faces_beside);
         fixed.beside_end = made.faces_beside.size();
       }
     }
@@ -177,7 +188,7 @@ namespace NMM
       // A bound for straight slaves on arcs that are much smaller than cells.
       constexpr double most_parts = 100.;
 
-      const double curvature = search->largest_curvature(slave);
+      const double curvature = narrow.largest_curvature(slave);
       if (curvature == 0.)
         return 1;
       double widest = 0.;
@@ -205,11 +216,11 @@ namespace NMM
 
 
     bool
-    PointMaker::is_in_front(const unsigned int             face,
-                            const unsigned int             other,
-                            const unsigned int             slave,
-                            const ContactSearch::Division &division,
-                            const double                   other_s) const
+    PointMaker::is_in_front(const unsigned int           face,
+                            const unsigned int           other,
+                            const unsigned int           slave,
+                            const NarrowPhase::Division &division,
+                            const double                 other_s) const
     {
       if (other == invalid_index)
         return false;
@@ -220,7 +231,7 @@ namespace NMM
         return true;
       if (edges[other].body == body)
         return false;
-      const unsigned int nearest = search->face_at(slave, division.s);
+      const unsigned int nearest = narrow.face_at(slave, division.s);
       if (nearest == invalid_index || edges[nearest].body != body ||
           edges[nearest].radius != 0.)
         return false;
@@ -248,18 +259,17 @@ namespace NMM
     void
     PointMaker::add_points_of(const unsigned int slave, PointSet &made) const
     {
-      const unsigned int edge = search->slaves()[slave];
-      const auto divisions    = search->divisions(slave, n_parts_of(slave));
+      const unsigned int edge      = search->slaves()[slave];
+      const auto         divisions = narrow.divisions(slave, n_parts_of(slave));
       for (unsigned int i = 0; i + 1 < divisions.size(); ++i)
       {
-        const ContactSearch::Division &begin = divisions[i];
-        const ContactSearch::Division &end   = divisions[i + 1];
+        const NarrowPhase::Division &begin = divisions[i];
+        const NarrowPhase::Division &end   = divisions[i + 1];
         unsigned int first = invalid_index, last = invalid_index;
         const double at_start =
-          begin.is_of_parts ? 0.
-                            : search->end_slack(slave, begin, end.s, first);
+          begin.is_of_parts ? 0. : narrow.end_slack(slave, begin, end.s, first);
         const double at_end =
-          end.is_of_parts ? 0. : search->end_slack(slave, end, begin.s, last);
+          end.is_of_parts ? 0. : narrow.end_slack(slave, end, begin.s, last);
         const double length = end.s - begin.s;
         // Where a joint crosses others, corners of several bodies coincide, and that of the division
         // may belong to a body behind the one that the piece touches. So may the corner of a body
@@ -267,7 +277,7 @@ namespace NMM
         const unsigned int between =
           first == invalid_index && last == invalid_index
             ? invalid_index
-            : search->face_at(slave, begin.s + 0.5 * length);
+            : narrow.face_at(slave, begin.s + 0.5 * length);
         const bool is_known = between != invalid_index;
         if (is_known && is_in_front(between, first, slave, begin, end.s))
           first = between;
@@ -291,7 +301,7 @@ namespace NMM
           const double speed = surface->reference_place(edge, fixed.s).a.norm();
           fixed.piece_length = length * speed;
           point.weight       = rule_weights[q] * length * speed;
-          const ContactSearch::Division &at = q == 0 ? begin : end;
+          const NarrowPhase::Division &at = q == 0 ? begin : end;
           // A corner of another body does not end the face on which this piece lies.
           const unsigned int on = is_last               ? last
                                   : q == 0 || !is_known ? first
@@ -307,7 +317,7 @@ namespace NMM
           }
           else if (fixed.slack > 0.)
           {
-            fixed.home = search->find_home(slave, point.s, on);
+            fixed.home = narrow.find_home(slave, point.s, on);
             // The face below the piece does not reach the end of the piece, and the face that begins
             // there is not below the piece.
             if (fixed.home == invalid_index)

@@ -1,7 +1,7 @@
 #ifndef nmm_source_contact_detection_point_maker_h
 #define nmm_source_contact_detection_point_maker_h
 
-#include <contact/detection/search.h>
+#include <contact/detection/narrow_phase.h>
 #include <contact/state/memory.h>
 #include <contact/state/multipliers.h>
 #include <contact/state/point_data.h>
@@ -39,9 +39,10 @@ namespace NMM
                  const ContactMemory     &memory,
                  const Multipliers       &multipliers);
 
-      /// The points of all slaves of this rank, first those along edges, n_rule() for each piece.
-      PointSet
-      make(bool with_faces_beside) const;
+      /// Replace @p result by the points of all slaves of this rank, first those along edges, n_rule()
+      /// for each piece. Its memory is used again.
+      void
+      make(bool with_faces_beside, PointSet &result) const;
 
       /// Number of points on each piece of a slave.
       unsigned int
@@ -107,14 +108,15 @@ namespace NMM
       /// than springs are compressed. False if there is no other face. The slave is a position in
       /// ContactSearch::slaves().
       bool
-      is_in_front(unsigned int                   face,
-                  unsigned int                   other,
-                  unsigned int                   slave,
-                  const ContactSearch::Division &division,
-                  double                         other_s) const;
+      is_in_front(unsigned int                 face,
+                  unsigned int                 other,
+                  unsigned int                 slave,
+                  const NarrowPhase::Division &division,
+                  double                       other_s) const;
 
       const ContactSurface    *surface;
       const ContactSearch     *search;
+      NarrowPhase              narrow;
       const ContactParameters *parameters;
       const ContactMemory     *memory;
       const Multipliers       *multipliers;

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <contact/detection/corner_rules.h>
 #include <contact/detection/point_projector.h>
-#include <utility>
 
 namespace NMM
 {
@@ -44,6 +43,7 @@ namespace NMM
                                    const ContactParameters &parameters)
       : surface(&surface)
       , search(&search)
+      , narrow(surface, search)
       , maker(&maker)
       , memory(&memory)
       , integration(parameters.integration)
@@ -53,11 +53,10 @@ namespace NMM
 
 
     void
-    PointProjector::begin_step(const double              new_reach,
-                               std::vector<unsigned int> new_faces_beside)
+    PointProjector::begin_step(const double new_reach, const PointSet &new_set)
     {
-      reach        = new_reach;
-      faces_beside = std::move(new_faces_beside);
+      reach = new_reach;
+      set   = &new_set;
     }
 
 
@@ -73,7 +72,9 @@ namespace NMM
     PointProjector::bound_new_contact()
     {
       constexpr double rounding = 1e-6;
-      admitted_depth            = rounding * reach;
+      if (admits_any_depth())
+        return;
+      admitted_depth = rounding * reach;
       search->find_motions_since_begin(edge_motions);
     }
 
@@ -115,7 +116,7 @@ namespace NMM
       admitted.motions = {edge_motions.data(), edge_motions.size()};
       // Another point of the same edge may be far behind the same face, beyond a corner of it.
       admitted.touching_depth = admitted.depth + memory->touching_reach;
-      admitted.beside         = {faces_beside.data() + fixed.beside_begin,
+      admitted.beside         = {set->faces_beside.data() + fixed.beside_begin,
                                  fixed.beside_end - fixed.beside_begin};
       admitted.rounded        = rounded.excluded(point.edge, point.s);
       if (point.edge < memory->touching.size())
@@ -138,7 +139,7 @@ namespace NMM
       if (fixed.corner >= PointKind::along)
       {
         ContactProjection result =
-          search->project(slave, masters, fixed.slack, fixed.home, admitted);
+          narrow.project(slave, masters, fixed.slack, fixed.home, admitted);
         // An overlap that is much deeper than long came in through the other face of the corner.
         if (result.master != invalid_index &&
             result.gap < -CornerRules::deepest_of_piece * fixed.piece_length -
@@ -150,13 +151,13 @@ namespace NMM
         memory->entrances.find(place_key(*surface, point.edge, fixed.corner));
       const auto project_on =
         [&](const dealii::ArrayView<const unsigned int> faces) {
-          return search->project_corner(slave,
-                                        normal_of_other_edge(point, fixed),
-                                        faces,
-                                        entrance == memory->entrances.end()
-                                          ? invalid_index
-                                          : entrance->second,
-                                        admitted);
+          return narrow.project_corner(slave,
+                                       normal_of_other_edge(point, fixed),
+                                       faces,
+                                       entrance == memory->entrances.end()
+                                         ? invalid_index
+                                         : entrance->second,
+                                       admitted);
         };
       const ContactProjection result = project_on(masters);
       const unsigned int      beyond = face_beyond_concave_end(result);
@@ -205,7 +206,7 @@ namespace NMM
     {
       // Faces that are not parallel touch along their projection only.
       const double       facing = -(slave_normal * master_normal);
-      double             along  = ContactSearch::along_face(facing);
+      double             along  = NarrowPhase::along_face(facing);
       const unsigned int corner = fixed.corner;
       if (corner >= PointKind::along)
         return facing * along;
@@ -215,7 +216,7 @@ namespace NMM
       if (integration == ContactIntegration::points)
         return facing / (facing + std::max(0., other_facing));
       // A corner touches as a point if neither of its edges touches along its length.
-      along = std::max(along, ContactSearch::along_face(other_facing));
+      along = std::max(along, NarrowPhase::along_face(other_facing));
       return facing * (1. - along);
     }
 
@@ -235,11 +236,11 @@ namespace NMM
             surface->edges()[projection.master].body)
         return;
       const ContactProjection there =
-        search->project_corner(slave,
-                               normal_of_other_edge(point, fixed),
-                               dealii::ArrayView<const unsigned int>(&face, 1),
-                               invalid_index,
-                               find_admitted(point, fixed));
+        narrow.project_corner(slave,
+                              normal_of_other_edge(point, fixed),
+                              dealii::ArrayView<const unsigned int>(&face, 1),
+                              invalid_index,
+                              find_admitted(point, fixed));
       if (there.master != invalid_index)
         projection = there;
     }
@@ -253,11 +254,11 @@ namespace NMM
     {
       ContactProjection projection = find_master(point, fixed, slave);
       const auto        project_on = [&](const unsigned int &edge) {
-        return search->project(slave,
-                               dealii::ArrayView<const unsigned int>(&edge, 1),
-                               fixed.slack,
-                               fixed.home,
-                               find_admitted(point, fixed));
+        return narrow.project(slave,
+                              dealii::ArrayView<const unsigned int>(&edge, 1),
+                              fixed.slack,
+                              fixed.home,
+                              find_admitted(point, fixed));
       };
       if (positions == Positions::between && fixed.corner < PointKind::along)
         stay_with_face_of_end(point, fixed, slave, projection);

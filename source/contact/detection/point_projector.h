@@ -2,10 +2,10 @@
 #define nmm_source_contact_detection_point_projector_h
 
 #include <contact/detection/point_maker.h>
-#include <contact/detection/search.h>
 #include <contact/state/memory.h>
 #include <contact/state/point_data.h>
 #include <contact/surface/rounded_corners.h>
+#include <limits>
 #include <vector>
 
 namespace NMM
@@ -25,9 +25,8 @@ namespace NMM
      * place; where faces end, the rules of corner_rules.h decide. Projecting writes nothing, so that
      * points are projected on several threads.
      *
-     * Order of calls: begin_step() when points have been made; admit_any_depth() or
-     * bound_new_contact() when faces have moved; then points are projected. All references must
-     * outlive this object.
+     * Order of calls: begin_step() when points have been made; bound_new_contact() when faces have
+     * moved; then points are projected. All references must outlive this object.
      */
     class PointProjector
     {
@@ -38,20 +37,35 @@ namespace NMM
                      const ContactMemory     &memory,
                      const ContactParameters &parameters);
 
-      /// Begin a step in which faces are searched for within @p reach [m]. @p faces_beside: see
-      /// PointSet.
+      /// Begin a step in which faces are searched for within @p reach [m], with the points @p set,
+      /// which must stay where it is.
       void
-      begin_step(double reach, std::vector<unsigned int> faces_beside);
+      begin_step(double reach, const PointSet &set);
 
-      /// New contact may be as deep as it likes. For steps that conserve energy: contact that is found
-      /// deep inside brings no energy, and would be lost for good if it were missed once.
+      /// New contact may be as deep as it likes from now on. For steps that conserve energy: contact
+      /// that is found deep inside brings no energy, and would be lost for good if it were missed
+      /// once.
       void
       admit_any_depth();
 
-      /// New contact may be as deep as faces have moved since the beginning of the step; in the first
-      /// step that is the reference configuration, in which blocks do not overlap.
+      /// Otherwise new contact may be as deep as faces have moved since the beginning of the step; in
+      /// the first step that is the reference configuration, in which blocks do not overlap.
       void
       bound_new_contact();
+
+      /// Whether new contact may be as deep as it likes.
+      bool
+      admits_any_depth() const
+      {
+        return admitted_depth == std::numeric_limits<double>::max();
+      }
+
+      /// Distance within which faces are searched for in this step [m].
+      double
+      search_reach() const
+      {
+        return reach;
+      }
 
       /// The positions for which points are projected.
       enum class Positions
@@ -72,7 +86,7 @@ namespace NMM
               const ContactSurface::Place &slave,
               Positions                    positions) const;
 
-      /// The face by ContactSearch alone, for a point along an edge or a corner.
+      /// The face by NarrowPhase alone, for a point along an edge or a corner.
       ContactProjection
       find_master(const ContactPoint          &point,
                   const PointData             &fixed,
@@ -125,13 +139,14 @@ namespace NMM
 
       const ContactSurface *surface;
       const ContactSearch  *search;
+      NarrowPhase           narrow;
       const PointMaker     *maker;
       const ContactMemory  *memory;
       ContactIntegration    integration;
       RoundedCorners        rounded;
       double                reach = 0.;
-      /// See PointSet. They are found when points are made, so that they do not change in a step.
-      std::vector<unsigned int> faces_beside;
+      /// With its faces_beside, which do not change in a step.
+      const PointSet *set = nullptr;
       /// Largest depth of new contact of an edge that has not moved, see AdmittedContact [m].
       double admitted_depth = 0.;
       /// Way of each edge since the last accepted state [m], where it bounds the depth of new contact.

@@ -70,14 +70,6 @@ namespace NMM
                                       edge_names[master]]];
       }
 
-      bool
-      has_dilation() const
-      {
-        return std::any_of(laws.begin(), laws.end(), [](const auto &law) {
-          return law->dilation > 0.;
-        });
-      }
-
     private:
       std::vector<std::shared_ptr<const ContactLaw>> laws;
       std::vector<unsigned int>                      edge_names, law_of_names;

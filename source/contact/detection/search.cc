@@ -67,9 +67,6 @@ namespace NMM
     }
 
 
-    ContactSearch::~ContactSearch() = default;
-
-
     bool
     ContactSearch::comes_first(const unsigned int edge,
                                const unsigned int other) const
@@ -101,18 +98,6 @@ namespace NMM
              (kind == ContactSurface::Corner::end && surface->is_rigid(edge)) ||
              (kind == ContactSurface::Corner::smooth && only_vertices &&
               at.radius != 0. && !surface->is_rigid(edge));
-    }
-
-
-    double
-    ContactSearch::along_face(const double facing)
-    {
-      const double x =
-        std::min(1.,
-                 std::max(0.,
-                          (facing - least_facing_along) /
-                            (all_facing_along - least_facing_along)));
-      return x * x * (3. - 2. * x);
     }
 
 

@@ -65,12 +65,10 @@ namespace NMM
     if (!crossings->may_cross(motion + depth))
       return {};
 
+    const ContactSearch &search = detection.search;
     crossings->set_step(search.step_begin(), search.positions());
     std::vector<EdgePair> near;
-    bool                  is_within_reach = true;
-    for (unsigned int body = 0; body < motions.size(); ++body)
-      is_within_reach = is_within_reach && motions[body] <= reaches[body];
-    if (is_within_reach)
+    if (detection.exceeded_reach(motions, 1.) == 0.)
       near = find_near(search, *crossings, depth);
     else
     {
@@ -79,14 +77,12 @@ namespace NMM
                             parameters.slave_priority,
                             parameters.integration ==
                               ContactIntegration::points);
-      surface->set_displacements(&step.nodal_begin);
-      surface->set_time(step.time_detected);
+      states.move_to_begin(true);
       further.search(motions);
       near = find_near(further, *crossings, depth);
-      surface->set_time(time);
-      surface->set_displacements(&nodal);
+      states.move_to_begin(false);
     }
-    near = all_pairs(communicator, std::move(near));
+    near = all_pairs(communicator(), std::move(near));
     if (near.empty())
       return {};
 
@@ -98,13 +94,13 @@ namespace NMM
         if (!is_known)
         {
           const auto &edges = surface->edges();
-          for (const ContactPoint &point : points)
+          for (const ContactPoint &point : set.points)
             if (point.state != ContactState::open)
             {
               in_contact.emplace_back(point.edge, edges[point.master].body);
               in_contact.emplace_back(point.master, edges[point.edge].body);
             }
-          in_contact = all_pairs(communicator, std::move(in_contact));
+          in_contact = all_pairs(communicator(), std::move(in_contact));
           std::sort(in_contact.begin(), in_contact.end());
           is_known = true;
         }
@@ -119,13 +115,14 @@ namespace NMM
   Contact::find_fault(const Vector &end)
   {
     Data &d = *data;
-    d.move_to(end);
-    const std::vector<double> motions = d.search.motions();
+    d.states.move_to(end);
+    const std::vector<double> motions = d.detection.motions();
+    const double              reach   = d.detection.projector.search_reach();
     std::ostringstream        text;
-    if (!d.is_idle && d.sums.deepest() > 0.5 * d.reach)
+    if (!is_idle() && d.sums.deepest() > 0.5 * reach)
     {
       text << "a penetration of " << d.sums.deepest()
-           << " m, more than half of the distance of " << d.reach
+           << " m, more than half of the distance of " << reach
            << " m within which faces are looked for";
       return {
         text.str(),
@@ -135,13 +132,12 @@ namespace NMM
         0.};
     }
     // A body that is struck moves further than was expected of it, while what struck it slows down.
-    for (unsigned int body = 0; body < motions.size(); ++body)
-      if (motions[body] > 2. * d.reaches[body])
-      {
-        text << "a point of a face that moved further than the distance of "
-             << 2. * d.reaches[body] << " m within which faces are looked for";
-        return {text.str(), "", 0.};
-      }
+    if (const double way = d.detection.exceeded_reach(motions, 2.); way > 0.)
+    {
+      text << "a point of a face that moved further than the distance of "
+           << way << " m within which faces are looked for";
+      return {text.str(), "", 0.};
+    }
     return d.find_crossing(motions);
   }
 
@@ -149,7 +145,7 @@ namespace NMM
   StepFault
   Contact::find_crossing(const Vector &end)
   {
-    data->move_to(end);
-    return data->find_crossing(data->search.motions());
+    data->states.move_to(end);
+    return data->find_crossing(data->detection.motions());
   }
 } // namespace NMM

@@ -7,7 +7,6 @@
 #include <contact/detection/points.h>
 #include <contact/detection/search.h>
 #include <contact/state/common_pieces.h>
-#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -22,39 +21,13 @@ namespace NMM
 
     namespace
     {
-      /// A place on an edge before the cut.
-      struct PlaceBefore
+      /// The anchor of a place before the cut: its piece, null if there is none, and its parameter on the
+      /// edge of that piece before the cut.
+      struct Anchor
       {
-        unsigned int edge = invalid_index;
-        double       t    = 0.;
+        const CommonPiece *master = nullptr;
+        double             t      = 0.;
       };
-
-
-      /// The edge that goes on smoothly beyond an end of an edge, or invalid_index.
-      unsigned int
-      smooth_neighbor(const ContactSurface &surface,
-                      const unsigned int    edge,
-                      const unsigned int    end)
-      {
-        const ContactSurface::Edge &at = surface.edges()[edge];
-        return (end == 0 ? at.at_start : at.at_end) ==
-                   ContactSurface::Corner::smooth
-                 ? (end == 0 ? at.previous : at.next)
-                 : invalid_index;
-      }
-
-
-      /// The parameter of a place on the smooth neighbor of its edge.
-      double
-      parameter_on_neighbor(const ContactSurface &surface,
-                            const PlaceBefore    &place,
-                            const unsigned int    end,
-                            const unsigned int    neighbor)
-      {
-        const double ratio =
-          surface.edges()[place.edge].length / surface.edges()[neighbor].length;
-        return end == 0 ? 1. + place.t * ratio : (place.t - 1.) * ratio;
-      }
 
 
       /// An interval of an edge before the cut in which the history is linear.
@@ -99,15 +72,17 @@ namespace NMM
         std::vector<LinearHistory>
         linear_histories(const CommonPiece &piece) const;
 
-        void
-        append_divided(unsigned int                slave,
-                       unsigned int                edge,
-                       LinearHistory               part,
-                       double                      least,
-                       std::vector<LinearHistory> &result) const;
+        Anchor
+        find_anchor(StickPlace stick, bool stays) const;
+
+        Anchor
+        anchor_at(const CommonPiece &piece, double s) const;
+
+        double
+        end_on_master(const CommonPiece &piece, double begin, double end) const;
 
         bool
-        is_kept(unsigned int slave, const PlaceBefore &anchor) const;
+        is_kept(unsigned int slave, unsigned int anchor) const;
 
         void
         add_at(const CommonPiece &piece, const LinearHistory &part, double s);
@@ -155,8 +130,7 @@ namespace NMM
             places_along[stick.place].push_back(
               {stick.s, stick.edge, stick.t, stick.is_bonded, stick.slip});
             const unsigned int slave = common.same_edge(stick.place);
-            if (slave == invalid_index ||
-                !is_kept(slave, {stick.edge, stick.t}))
+            if (slave == invalid_index || !is_kept(slave, stick.edge))
               is_copied[stick.place] = false;
           }
         for (auto &places : places_along)
@@ -193,18 +167,74 @@ namespace NMM
       /// still the master.
       bool
       StickCarrier::is_kept(const unsigned int slave,
-                            const PlaceBefore &anchor) const
+                            const unsigned int anchor) const
       {
-        const unsigned int master = common.same_edge(anchor.edge);
+        const unsigned int master = common.same_edge(anchor);
         return master != invalid_index && search.comes_first(slave, master);
+      }
+
+
+      /// The anchor of a place. Unless it @p stays on its edge, one beyond a smooth end of it is a
+      /// place of the next edge.
+      Anchor
+      StickCarrier::find_anchor(StickPlace stick, const bool stays) const
+      {
+        constexpr unsigned int most_edges = 100;
+        constexpr auto         smooth     = ContactSurface::Corner::smooth;
+
+        for (unsigned int i = 0;
+             i < most_edges && !stays && (stick.t < 0. || stick.t > 1.);
+             ++i)
+        {
+          const bool  is_before = stick.t < 0.;
+          const auto &edge      = from.edges()[stick.edge];
+          if ((is_before ? edge.at_start : edge.at_end) != smooth)
+            break;
+          stick.edge         = is_before ? edge.previous : edge.next;
+          const double ratio = edge.length / from.edges()[stick.edge].length;
+          stick.t = is_before ? 1. + stick.t * ratio : (stick.t - 1.) * ratio;
+        }
+        return {common.piece_at(stick.edge, stick.t), stick.t};
+      }
+
+
+      /// The anchor of the parameter @p s on the edge of a piece before the cut.
+      Anchor
+      StickCarrier::anchor_at(const CommonPiece &piece, const double s) const
+      {
+        StickPlace stick;
+        return find_stick_place(places_along[piece.before], s, stick)
+                 ? find_anchor(stick, is_kept(piece.after, stick.edge))
+                 : Anchor();
+      }
+
+
+      /// The end of the part of an interval, from its beginning on, whose anchors are on the same piece.
+      double
+      StickCarrier::end_on_master(const CommonPiece &piece,
+                                  const double       begin,
+                                  const double       end) const
+      {
+        constexpr double       inside       = 1e-6;
+        constexpr unsigned int n_bisections = 50;
+
+        double low                      = (1. - inside) * begin + inside * end,
+               high                     = (1. - inside) * end + inside * begin;
+        const CommonPiece *const master = anchor_at(piece, low).master;
+        if (anchor_at(piece, high).master == master)
+          return end;
+        for (unsigned int i = 0; i < n_bisections; ++i)
+        {
+          const double middle = 0.5 * (low + high);
+          (anchor_at(piece, middle).master == master ? low : high) = middle;
+        }
+        return high;
       }
 
 
       void
       StickCarrier::carry_corner(const ContactHistory::Stick &stick)
       {
-        constexpr unsigned int most_edges = 100;
-
         const unsigned int n    = from.edges().size();
         const unsigned int kind = stick.place / n - 1;
         const unsigned int end =
@@ -212,21 +242,10 @@ namespace NMM
         const unsigned int edge = common.edge_at_end(stick.place % n, end);
         if (edge == invalid_index)
           return;
-        PlaceBefore anchor{stick.edge, stick.t};
-        for (unsigned int i = 0;
-             i < most_edges && common.same_edge(stick.edge) == invalid_index &&
-             (anchor.t < 0. || anchor.t > 1.);
-             ++i)
-        {
-          const unsigned int beyond = anchor.t < 0. ? 0 : 1;
-          const unsigned int neighbor =
-            smooth_neighbor(from, anchor.edge, beyond);
-          if (neighbor == invalid_index)
-            break;
-          anchor = {neighbor,
-                    parameter_on_neighbor(from, anchor, beyond, neighbor)};
-        }
-        const CommonPiece *master = common.piece_at(anchor.edge, anchor.t);
+        const Anchor anchor =
+          find_anchor({stick.s, stick.edge, stick.t},
+                      common.same_edge(stick.edge) != invalid_index);
+        const CommonPiece *const master = anchor.master;
         // A corner of a master that has become a slave is a point along that slave.
         if (master == nullptr || (kind > PointKind::along &&
                                   !search.comes_first(master->after, edge)))
@@ -239,84 +258,6 @@ namespace NMM
                           master->to_after(anchor.t),
                           stick.is_bonded,
                           stick.slip});
-      }
-
-
-      /// Append an interval of the edge @p slave (after the cut) with anchors on the @p edge (before
-      /// the cut), divided where the anchors pass on to other edges after the cut.
-      void
-      StickCarrier::append_divided(const unsigned int          slave,
-                                   const unsigned int          edge,
-                                   LinearHistory               part,
-                                   const double                least,
-                                   std::vector<LinearHistory> &result) const
-      {
-        if (!(part.end - part.begin > least))
-          return;
-        const double middle = 0.5 * (part.t[0] + part.t[1]);
-        part.master         = common.piece_at(edge, middle);
-        // The part of the interval with anchors between two parameters.
-        const auto divide = [&](const double from_t, const double to_t) {
-          LinearHistory inner = part;
-          const double  slope =
-            (part.t[1] - part.t[0]) / (part.end - part.begin);
-          for (const unsigned int end : {0U, 1U})
-          {
-            const double t = std::min(to_t, std::max(from_t, part.t[end]));
-            if (t == part.t[end])
-              continue;
-            (end == 0 ? inner.begin : inner.end) =
-              part.begin + (t - part.t[0]) / slope;
-            inner.t[end] = t;
-          }
-          return inner;
-        };
-        // Anchors beyond the end of an edge that is the same as before stay there.
-        if (part.t[0] == part.t[1] || is_kept(slave, {edge, middle}))
-        {
-          if (part.master != nullptr)
-            result.push_back(part);
-          return;
-        }
-        std::vector<LinearHistory> parts;
-        constexpr double infinite = std::numeric_limits<double>::max();
-        double           first = -infinite, last = infinite;
-        for (const unsigned int end : {0U, 1U})
-        {
-          const unsigned int neighbor = smooth_neighbor(from, edge, end);
-          if (neighbor == invalid_index)
-            continue;
-          (end == 0 ? first : last) = end;
-          const bool is_beyond = end == 0 ? std::min(part.t[0], part.t[1]) < 0.
-                                          : std::max(part.t[0], part.t[1]) > 1.;
-          if (!is_beyond)
-            continue;
-          LinearHistory beyond =
-            end == 0 ? divide(-infinite, 0.) : divide(1., infinite);
-          for (double &t : beyond.t)
-            t = parameter_on_neighbor(from, {edge, t}, end, neighbor);
-          append_divided(slave, neighbor, beyond, least, parts);
-        }
-        const auto &pieces = common.of_before(edge);
-        for (unsigned int i = 0; i < pieces.size(); ++i)
-        {
-          const double lower = i == 0 ? first : pieces[i].of_before[0];
-          const double upper =
-            i + 1 == pieces.size() ? last : pieces[i].of_before[1];
-          if (std::max(part.t[0], part.t[1]) <= lower ||
-              std::min(part.t[0], part.t[1]) >= upper)
-            continue;
-          LinearHistory inner = divide(lower, upper);
-          inner.master        = &pieces[i];
-          if (inner.end - inner.begin > least)
-            parts.push_back(inner);
-        }
-        std::sort(parts.begin(),
-                  parts.end(),
-                  [](const LinearHistory &a, const LinearHistory &b) {
-                    return a.begin < b.begin;
-                  });
-        result.insert(result.end(), parts.begin(), parts.end());
       }
 
 
@@ -341,19 +282,27 @@ namespace NMM
         std::vector<LinearHistory> result;
         for (unsigned int i = 0; i + 1 < ends.size(); ++i)
         {
-          LinearHistory part;
-          part.begin          = ends[i];
-          part.end            = ends[i + 1];
-          const double length = part.end - part.begin;
-          StickPlace   a, b;
-          if (part.begin < begin || part.end > end || !(length > least) ||
-              !find_stick_place(places, part.begin + 0.25 * length, a) ||
-              !find_stick_place(places, part.end - 0.25 * length, b) ||
-              a.edge != b.edge)
-            continue;
-          part.t         = {{a.t - 0.5 * (b.t - a.t), b.t + 0.5 * (b.t - a.t)}};
-          part.is_bonded = a.is_bonded;
-          append_divided(piece.after, a.edge, part, least, result);
+          double begin_of_part = ends[i];
+          while (begin_of_part >= begin && ends[i + 1] <= end &&
+                 ends[i + 1] - begin_of_part > least)
+          {
+            LinearHistory part;
+            part.begin          = begin_of_part;
+            part.end            = end_on_master(piece, part.begin, ends[i + 1]);
+            begin_of_part       = part.end;
+            const double length = part.end - part.begin;
+            const Anchor a      = anchor_at(piece, part.begin + 0.25 * length),
+                         b      = anchor_at(piece, part.end - 0.25 * length);
+            StickPlace stick;
+            if (!(length > least) || a.master == nullptr ||
+                a.master != b.master ||
+                !find_stick_place(places, part.begin + 0.5 * length, stick))
+              continue;
+            part.master    = a.master;
+            part.is_bonded = stick.is_bonded;
+            part.t = {{a.t - 0.5 * (b.t - a.t), b.t + 0.5 * (b.t - a.t)}};
+            result.push_back(part);
+          }
         }
         return result;
       }
@@ -600,40 +549,31 @@ namespace NMM
             is_divided = is_divided || parts[former[body]].size() > 1;
           }
 
-        // The length along which faces touch determines which pairs of parts have an energy. How it
-        // is distributed among them matters only until the next step begins.
-        std::map<std::pair<unsigned int, unsigned int>, double> lengths;
+        // Faces that touch determine which pairs of parts have an energy. How it is distributed among
+        // them matters only until the next step begins.
+        using Pair = std::pair<unsigned int, unsigned int>;
+        std::set<Pair> touching;
         for (const auto &[edge, other] : result.touching)
-          lengths[std::minmax(
-            {to.edges()[edge].body, to.edges()[other].body})] +=
-            to.edges()[edge].length;
+          touching.insert(
+            std::minmax({to.edges()[edge].body, to.edges()[other].body}));
         for (const ContactHistory::PairEnergy &energy : history.pair_energies)
         {
-          std::map<std::pair<unsigned int, unsigned int>, double> shares;
-          double                                                  sum = 0.;
+          std::set<Pair> all, near;
           for (const unsigned int a : parts[energy.first])
             for (const unsigned int b : parts[energy.second])
             {
-              const std::pair<unsigned int, unsigned int> pair =
-                std::minmax({a, b});
-              const auto length = lengths.find(pair);
-              if (shares.count(pair) == 0 && length != lengths.end())
-                sum += shares[pair] = length->second;
-              else
-                shares.emplace(pair, 0.);
+              const Pair pair = std::minmax({a, b});
+              all.insert(pair);
+              if (touching.count(pair) > 0)
+                near.insert(pair);
             }
-          for (const auto &[pair, share] : shares)
-          {
-            const double part = shares.size() == 1 ? 1.
-                                : sum == 0.
-                                  ? 1. / static_cast<double>(shares.size())
-                                  : share / sum;
-            if (part > 0.)
-              result.pair_energies.push_back(
-                {pair.first,
-                 pair.second,
-                 {{part * energy.energies[0], part * energy.energies[1]}}});
-          }
+          const std::set<Pair> &pairs = near.empty() ? all : near;
+          for (const auto &[first, second] : pairs)
+            result.pair_energies.push_back(
+              {first,
+               second,
+               {{energy.energies[0] / pairs.size(),
+                 energy.energies[1] / pairs.size()}}});
         }
         if (!is_divided)
           return;

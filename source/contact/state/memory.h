@@ -4,8 +4,8 @@
 #include <nmm/contact/state/history.h>
 #include <nmm/contact/surface/surface.h>
 
-#include <contact/assembly/spring_energies.h>
-#include <contact/detection/points.h>
+#include <contact/state/point_data.h>
+#include <contact/state/spring_energies.h>
 #include <map>
 #include <utility>
 #include <vector>
@@ -14,6 +14,11 @@ namespace NMM
 {
   namespace internal
   {
+    /// Energies of the springs of all closed points of all ranks, by pair of bodies.
+    PairEnergies
+    energies_of(const PointSet &set, const ContactSurface &surface);
+
+
     /**
      * What contact remembers of the last accepted state, on this rank; ContactHistory is the same
      * for all ranks, to be saved.
@@ -40,10 +45,18 @@ namespace NMM
       std::vector<double>               searched_reaches;
       /// See ContactHistory::touching_reach [m].
       double touching_reach = 0.;
+      /// Energy lost since the last accepted state [J/m]: of bonds of this rank that broke, and when
+      /// faces were searched for, which is the same on all ranks.
+      double broken_energy = 0., detection_loss = 0.;
 
       /// Remove the history of bodies that are absent from the surface.
       void
       forget_absent_bodies(const ContactSurface &surface);
+
+      /// Let each pair of bodies store no more than at the last accepted state, see
+      /// ContactTimeStep::begin(). Sets detection_loss. Collective.
+      void
+      keep_energies(const ContactSurface &surface, PointSet &set);
 
       /// Collect the history of all ranks. Collective.
       void

@@ -35,7 +35,7 @@ namespace NMM
       ContactSurface::WeightValues weights;
       /// Law between the slave and the last master; null if there has been none.
       const ContactLaw *law = nullptr;
-      /// Fraction of an edge by which masters are continued, see ContactSearch::end_slack().
+      /// Fraction of an edge by which masters are continued, see NarrowPhase::end_slack().
       double slack = 0.;
       /// The master that is continued by the slack; invalid_index if none is.
       unsigned int home = invalid_index;
@@ -55,9 +55,6 @@ namespace NMM
       /// Parameter on the master at the end of the step, and the normal there.
       double               t_end = 0.;
       dealii::Tensor<1, 2> normal_end;
-      /// Derivatives of the mean pressure of a step, times the weight, by the gap at the end and by
-      /// the relative normal motion of both faces [N/m^2].
-      double pressure_by_gap = 0., pressure_by_opening = 0.;
       /// Pressure and shear of the initial stress in the reference configuration [Pa].
       double initial_pressure = 0., initial_shear = 0.;
       /// See Multipliers::stiffening(); 1 for the penalty method [-].
@@ -77,14 +74,25 @@ namespace NMM
     };
 
 
+    /// Let a point exert nothing.
+    inline void
+    set_open(ContactPoint &point)
+    {
+      point.pressure = point.shear = 0.;
+      point.state                  = ContactState::open;
+    }
+
+
     /// Contact points, their data and the faces that they are beside. A range of PointData refers to
     /// these faces.
     struct PointSet
     {
       std::vector<ContactPoint> points;
       std::vector<PointData>    data;
-      /// See ContactSearch::append_faces_beside().
+      /// See NarrowPhase::append_faces_beside().
       std::vector<unsigned int> faces_beside;
+      /// Numbers of the points that touch at the beginning or the end of a conserving step.
+      std::vector<unsigned int> near_points;
 
       void
       clear()
@@ -97,6 +105,10 @@ namespace NMM
       /// Append other points.
       void
       append(const PointSet &other);
+
+      /// The slaves of near_points.
+      std::vector<unsigned int>
+      near_slaves() const;
     };
   } // namespace internal
 } // namespace NMM

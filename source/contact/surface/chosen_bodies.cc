@@ -1,4 +1,4 @@
-#include <contact/assembly/chosen_bodies.h>
+#include <contact/surface/chosen_bodies.h>
 
 namespace NMM
 {

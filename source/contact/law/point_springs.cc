@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <contact/assembly/point_springs.h>
+#include <contact/law/point_springs.h>
 
 namespace NMM
 {

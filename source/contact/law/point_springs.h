@@ -1,5 +1,5 @@
-#ifndef nmm_source_contact_assembly_point_springs_h
-#define nmm_source_contact_assembly_point_springs_h
+#ifndef nmm_source_contact_law_point_springs_h
+#define nmm_source_contact_law_point_springs_h
 
 #include <nmm/contact/law/law.h>
 

@@ -3,7 +3,7 @@
 #include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <contact/detection/corner_rules.h>
-#include <contact/detection/search.h>
+#include <contact/detection/narrow_phase.h>
 #include <tuple>
 
 namespace NMM
@@ -26,14 +26,94 @@ namespace NMM
                  ? std::max(slack, 0.)
                  : 0.;
       }
+
+
+      /// Fraction of an edge by which it is continued beyond an end with this corner.
+      double
+      extension(const ContactSurface::Corner corner, const double slack)
+      {
+        switch (corner)
+        {
+          case ContactSurface::Corner::smooth:
+          case ContactSurface::Corner::concave:
+            return beyond_end;
+          default:
+            return slack;
+        }
+      }
+
+
+      /// Slack of a master in NarrowPhase::project().
+      double
+      slack_of(const unsigned int master,
+               const double       slack,
+               const unsigned int home)
+      {
+        return slack < 0. || master == home || home == NarrowPhase::any_edge
+                 ? slack
+                 : beyond_rounding;
+      }
+
+
+      /// The corner past which at most a few edges lead from one edge to the other, since some of them
+      /// may be slivers; smooth if there is none.
+      ContactSurface::Corner
+      corner_between(const ContactSurface &surface,
+                     const unsigned int    edge,
+                     const unsigned int    other)
+      {
+        const auto &edges = surface.edges();
+        for (const auto &[from, to] :
+             {std::make_pair(edge, other), std::make_pair(other, edge)})
+        {
+          auto         corner = ContactSurface::Corner::smooth;
+          unsigned int e      = from;
+          for (unsigned int i = 0;
+               i < most_edges_of_corner && e != invalid_index;
+               ++i)
+          {
+            if (e == to)
+              return corner;
+            const auto at_end = edges[e].at_end;
+            if (at_end == ContactSurface::Corner::convex ||
+                (at_end == ContactSurface::Corner::concave &&
+                 corner == ContactSurface::Corner::smooth))
+              corner = at_end;
+            e = edges[e].next;
+          }
+        }
+        return ContactSurface::Corner::smooth;
+      }
+
+
+      bool
+      meet_in_convex_corner(const ContactSurface &surface,
+                            const unsigned int    edge,
+                            const unsigned int    other)
+      {
+        return corner_between(surface, edge, other) ==
+               ContactSurface::Corner::convex;
+      }
     } // namespace
 
 
+    double
+    NarrowPhase::along_face(const double facing)
+    {
+      const double x =
+        std::min(1.,
+                 std::max(0.,
+                          (facing - least_facing_along) /
+                            (all_facing_along - least_facing_along)));
+      return x * x * (3. - 2. * x);
+    }
+
+
     bool
-    ContactSearch::find_nearest(const unsigned int     edge,
-                                const ContactPosition &x,
-                                double                &t,
-                                Place                 &place) const
+    NarrowPhase::find_nearest(const unsigned int     edge,
+                              const ContactPosition &x,
+                              double                &t,
+                              Place                 &place) const
     {
       const ContactPosition start = surface->place(edge, 0.).x;
       const Tensor<1, 2>    chord = surface->place(edge, 1.).x - start;
@@ -67,19 +147,19 @@ namespace NMM
     }
 
 
-    std::vector<ContactSearch::Division>
-    ContactSearch::divisions(const unsigned int position,
-                             const unsigned int n_parts) const
+    std::vector<NarrowPhase::Division>
+    NarrowPhase::divisions(const unsigned int position,
+                           const unsigned int n_parts) const
     {
-      const unsigned int    slave = slave_edges[position];
+      const unsigned int    slave = search->slaves()[position];
       std::vector<Division> found;
-      for (const unsigned int master : masters(position))
+      for (const unsigned int master : search->masters(position))
         for (const unsigned int end : {0U, 1U})
         {
-          if (n_parts > 1 && !is_corner(master, end))
+          if (n_parts > 1 && !search->is_corner(master, end))
             continue;
           const ContactPosition x          = surface->place(master, end).x;
-          const double          pair_reach = reach_of(slave, master);
+          const double          pair_reach = search->reach_of(slave, master);
           double                t;
           Place                 place;
           if (!surface->is_further(slave, x, pair_reach, 0., 0.) &&
@@ -88,7 +168,10 @@ namespace NMM
               along_face(
                 -(place.normal() * surface->place(master, end).normal())) > 0.)
             found.push_back(
-              {t, is_corner(master, end) ? master : invalid_index, end, false});
+              {t,
+               search->is_corner(master, end) ? master : invalid_index,
+               end,
+               false});
         }
       // Whether something is in reach of the last two divisions.
       bool is_before = false, is_here = false;
@@ -120,13 +203,13 @@ namespace NMM
 
 
     bool
-    ContactSearch::is_in_reach(const unsigned int     position,
-                               const ContactPosition &x) const
+    NarrowPhase::is_in_reach(const unsigned int     position,
+                             const ContactPosition &x) const
     {
-      const unsigned int slave = slave_edges[position];
-      for (const unsigned int master : masters(position))
+      const unsigned int slave = search->slaves()[position];
+      for (const unsigned int master : search->masters(position))
       {
-        const double pair_reach = reach_of(slave, master);
+        const double pair_reach = search->reach_of(slave, master);
         double       t;
         Place        place;
         if (!surface->is_further(master, x, pair_reach, 0., 0.) &&
@@ -140,8 +223,8 @@ namespace NMM
 
 
     double
-    ContactSearch::relative_curvature(const unsigned int edge,
-                                      const unsigned int other) const
+    NarrowPhase::relative_curvature(const unsigned int edge,
+                                    const unsigned int other) const
     {
       double sum = 0.;
       for (const unsigned int e : {edge, other})
@@ -152,11 +235,11 @@ namespace NMM
 
 
     double
-    ContactSearch::largest_curvature(const unsigned int position) const
+    NarrowPhase::largest_curvature(const unsigned int position) const
     {
-      const unsigned int slave  = slave_edges[position];
+      const unsigned int slave  = search->slaves()[position];
       double             result = 0.;
-      for (const unsigned int master : masters(position))
+      for (const unsigned int master : search->masters(position))
       {
         const double curvature = relative_curvature(slave, master);
         if (curvature <= result)
@@ -175,58 +258,22 @@ namespace NMM
     }
 
 
-    bool
-    ContactSearch::meet_in_convex_corner(const unsigned int edge,
-                                         const unsigned int other) const
-    {
-      return corner_between(edge, other) == ContactSurface::Corner::convex;
-    }
-
-
-    /// Some of the edges between both may be slivers.
-    ContactSurface::Corner
-    ContactSearch::corner_between(const unsigned int edge,
-                                  const unsigned int other) const
-    {
-      const auto &edges = surface->edges();
-      for (const auto &[from, to] :
-           {std::make_pair(edge, other), std::make_pair(other, edge)})
-      {
-        auto         corner = ContactSurface::Corner::smooth;
-        unsigned int e      = from;
-        for (unsigned int i = 0; i < most_edges_of_corner && e != invalid_index;
-             ++i)
-        {
-          if (e == to)
-            return corner;
-          const auto at_end = edges[e].at_end;
-          if (at_end == ContactSurface::Corner::convex ||
-              (at_end == ContactSurface::Corner::concave &&
-               corner == ContactSurface::Corner::smooth))
-            corner = at_end;
-          e = edges[e].next;
-        }
-      }
-      return ContactSurface::Corner::smooth;
-    }
-
-
     ContactProjection
-    ContactSearch::project(const Place                                &place,
-                           const dealii::ArrayView<const unsigned int> masters,
-                           const double                                slack,
-                           const unsigned int                          home,
-                           const AdmittedContact &admitted) const
+    NarrowPhase::project(const Place                                &place,
+                         const dealii::ArrayView<const unsigned int> masters,
+                         const double                                slack,
+                         const unsigned int                          home,
+                         const AdmittedContact &admitted) const
     {
       const unsigned int body =
         home < any_edge ? surface->edges()[home].body : invalid_index;
       return project_within(
-        place, masters, {slack, home, body}, reach, admitted);
+        place, masters, {slack, home, body}, reach(), admitted);
     }
 
 
     ContactProjection
-    ContactSearch::project_corner(
+    NarrowPhase::project_corner(
       const Place                                &slave_place,
       const Tensor<1, 2>                         &other_normal,
       const dealii::ArrayView<const unsigned int> masters,
@@ -245,13 +292,14 @@ namespace NMM
         now.master          = master;
         const double before = extension(edge.at_start, beyond_rounding);
         const double after  = extension(edge.at_end, beyond_rounding);
-        if (surface->is_further(master, slave_place.x, reach, before, after) ||
+        if (surface->is_further(
+              master, slave_place.x, reach(), before, after) ||
             !find_nearest(master, slave_place.x, now.t, now.place) ||
             now.t < -before || now.t > 1. + after)
           continue;
         now.normal = now.place.normal();
         now.gap    = (slave_place.x - now.place.x) * now.normal;
-        if (std::abs(now.gap) <= reach)
+        if (std::abs(now.gap) <= reach())
           near.push_back(now);
       }
       const unsigned int n = near.size();
@@ -281,20 +329,20 @@ namespace NMM
             (near[j].gap > now.gap &&
              -(near[j].normal * slave_normal) <= least_facing &&
              -(near[j].normal * other_normal) > least_facing &&
-             meet_in_convex_corner(now.master, near[j].master));
+             meet_in_convex_corner(*surface, now.master, near[j].master));
         if (is_of_other_edge)
           continue;
         // The point is outside if it is in front of the other face of the master's corner.
         for (unsigned int j = 0; j < n && now.gap < 0.; ++j)
           if (near[j].gap >= 0. &&
               can_separate(near[j].normal, slave_normal, other_normal) &&
-              meet_in_convex_corner(now.master, near[j].master))
+              meet_in_convex_corner(*surface, now.master, near[j].master))
             now.gap = near[j].gap;
         const bool is_inside = now.gap < 0., best_is_inside = best.gap < 0.;
         if (best.master == invalid_index ||
             (is_inside != best_is_inside
                ? is_inside
-               : std::abs(now.gap) < std::abs(best.gap) - same_gap * reach))
+               : std::abs(now.gap) < std::abs(best.gap) - same_gap * reach()))
           best = now;
       }
       return best;
@@ -306,17 +354,18 @@ namespace NMM
     /// other the nearer one would be found for both. Corners that are far behind the slave are
     /// excluded.
     unsigned int
-    ContactSearch::edge_beside(const unsigned int position,
-                               const Division    &division,
-                               const double       s_inside) const
+    NarrowPhase::edge_beside(const unsigned int position,
+                             const Division    &division,
+                             const double       s_inside) const
     {
       if (division.master == invalid_index)
         return invalid_index;
       const auto &corner = surface->edges()[division.master];
-      const Place slave  = surface->place(slave_edges[position], division.s);
+      const Place slave =
+        surface->place(search->slaves()[position], division.s);
       if ((surface->place(division.master, division.end).x - slave.x) *
             slave.normal() <=
-          -behind_division * reach)
+          -behind_division * reach())
         return invalid_index;
       for (const auto &[edge, end] :
            {std::make_pair(division.master, division.end),
@@ -336,24 +385,24 @@ namespace NMM
 
 
     unsigned int
-    ContactSearch::face_at(const unsigned int position, const double s) const
+    NarrowPhase::face_at(const unsigned int position, const double s) const
     {
       AdmittedContact admitted;
       admitted.least_facing = least_facing_along;
-      return project_within(surface->place(slave_edges[position], s),
-                            masters(position),
+      return project_within(surface->place(search->slaves()[position], s),
+                            search->masters(position),
                             {},
-                            reach_of_piece * reach,
+                            reach_of_piece * reach(),
                             admitted)
         .master;
     }
 
 
     double
-    ContactSearch::end_slack(const unsigned int position,
-                             const Division    &division,
-                             const double       s_inside,
-                             unsigned int      &master) const
+    NarrowPhase::end_slack(const unsigned int position,
+                           const Division    &division,
+                           const double       s_inside,
+                           unsigned int      &master) const
     {
       const double s = division.s;
       master         = edge_beside(position, division, s_inside);
@@ -365,43 +414,18 @@ namespace NMM
     }
 
 
-    double
-    ContactSearch::extension(const ContactSurface::Corner corner,
-                             const double                 slack)
-    {
-      switch (corner)
-      {
-        case ContactSurface::Corner::smooth:
-        case ContactSurface::Corner::concave:
-          return beyond_end;
-        default:
-          return slack;
-      }
-    }
-
-
-    double
-    ContactSearch::slack_of(const unsigned int master,
-                            const double       slack,
-                            const unsigned int home)
-    {
-      return slack < 0. || master == home || home == any_edge ? slack
-                                                              : beyond_rounding;
-    }
-
-
     unsigned int
-    ContactSearch::find_home(const unsigned int position,
-                             const double       s,
-                             const unsigned int master) const
+    NarrowPhase::find_home(const unsigned int position,
+                           const double       s,
+                           const unsigned int master) const
     {
       const auto             &edges = surface->edges();
-      const unsigned int      slave = slave_edges[position];
+      const unsigned int      slave = search->slaves()[position];
       const ContactProjection result =
         project_within(surface->place(slave, s),
-                       masters(position),
+                       search->masters(position),
                        {end_of_home, any_edge, edges[master].body},
-                       reach,
+                       reach(),
                        AdmittedContact());
       if (result.master == invalid_index)
         return invalid_index;
@@ -414,7 +438,7 @@ namespace NMM
 
 
     ContactProjection
-    ContactSearch::project_within(
+    NarrowPhase::project_within(
       const Place                                &slave_place,
       const dealii::ArrayView<const unsigned int> masters,
       const Masters                              &which,
@@ -465,13 +489,13 @@ namespace NMM
                     now.t - 1. - inside_slack(edge.at_end, slack)});
         bool       is_better = best.master == invalid_index;
         const bool is_corner =
-          !is_better &&
-          corner_between(best.master, master) != ContactSurface::Corner::smooth;
+          !is_better && corner_between(*surface, best.master, master) !=
+                          ContactSurface::Corner::smooth;
         // Where corners of both bodies coincide, neither a small slip nor the closure of springs
         // moves a point to the face round the corner; after a larger slip the slave is divided
         // there.
         const double same_overshoot =
-          is_corner ? end_of_home * edge.length : same_gap * reach;
+          is_corner ? end_of_home * edge.length : same_gap * reach();
         if (!is_better && std::abs(overshoot - best_overshoot) > same_overshoot)
           is_better = overshoot < best_overshoot;
         else if (is_corner)
@@ -479,7 +503,7 @@ namespace NMM
         else if (!is_better)
         {
           const double difference = std::abs(now.gap) - std::abs(best.gap);
-          is_better               = std::abs(difference) > same_gap * reach
+          is_better               = std::abs(difference) > same_gap * reach()
                                       ? difference < 0.
                                       : facing > best_facing + same_gap;
         }
@@ -491,7 +515,7 @@ namespace NMM
         }
       }
       // Where corners meet, rounding must not decide which of two sides of a body is nearer.
-      if (best.master == invalid_index || best.gap >= -same_gap * reach)
+      if (best.master == invalid_index || best.gap >= -same_gap * reach())
         return best;
       const ContactSurface::Edge &edge    = surface->edges()[best.master];
       constexpr auto              concave = ContactSurface::Corner::concave;
@@ -504,7 +528,7 @@ namespace NMM
         if (
           surface->edges()[far].body == edge.body &&
           std::abs(gap) < -best.gap && (gap > 0. || admitted.is_bound()) &&
-          !(is_at_tip && meet_in_convex_corner(far, best.master)) &&
+          !(is_at_tip && meet_in_convex_corner(*surface, far, best.master)) &&
           // Exclude the two faces of a notch, which have the body on either side.
           !(far == edge.previous && edge.at_start == concave) &&
           !(far == edge.next && edge.at_end == concave))

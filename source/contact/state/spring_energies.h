@@ -1,5 +1,5 @@
-#ifndef nmm_source_contact_assembly_spring_energies_h
-#define nmm_source_contact_assembly_spring_energies_h
+#ifndef nmm_source_contact_state_spring_energies_h
+#define nmm_source_contact_state_spring_energies_h
 
 #include <nmm/contact/law/law.h>
 

@@ -1,5 +1,5 @@
-#ifndef nmm_source_contact_assembly_chosen_bodies_h
-#define nmm_source_contact_assembly_chosen_bodies_h
+#ifndef nmm_source_contact_surface_chosen_bodies_h
+#define nmm_source_contact_surface_chosen_bodies_h
 
 #include <nmm/contact/surface/surface.h>
 
@@ -52,12 +52,16 @@ namespace NMM
         points.select(bodies);
       }
 
-      /// Call action(q) for points that belong to a chosen body, ascending.
-      template <typename Action>
-      void
-      for_each_point(const unsigned int n_points, const Action &action) const
+      /// Those of @p n_points points that belong to a chosen body, ascending; valid until the next
+      /// call. The memory is kept, because assemblies must not allocate.
+      const std::vector<unsigned int> &
+      chosen_points(const unsigned int n_points)
       {
-        points.for_each(n_points, action);
+        listed_points.clear();
+        points.for_each(n_points, [this](const unsigned int q) {
+          listed_points.push_back(q);
+        });
+        return listed_points;
       }
 
       /// Call action(k) for the covers of chosen bodies, ascending.
@@ -94,6 +98,8 @@ namespace NMM
       const ContactSurface *surface;
       std::vector<bool>     bodies;
       ChosenItems           points, all_covers, all_rows, edges;
+      /// See chosen_points().
+      std::vector<unsigned int> listed_points;
     };
   } // namespace internal
 } // namespace NMM

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <contact/assembly/spring_energies.h>
+#include <contact/state/spring_energies.h>
 #include <initializer_list>
 
 namespace NMM

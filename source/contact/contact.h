@@ -19,8 +19,8 @@
 
 namespace NMM
 {
-  /// The stages of Contact as objects, in the order in which data pass them: positions, candidate pairs
-  /// and points, projections, tractions, forces, sums, and what is kept of accepted states.
+  /// The stages of Contact as objects: positions, what is kept of accepted states, candidate pairs and
+  /// points, projections, tractions, matrix and sums.
   struct Contact::Data
   {
     using PointForces = internal::PointForces;

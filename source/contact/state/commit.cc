@@ -19,8 +19,8 @@ namespace NMM
 
   namespace
   {
-    /// Set the anchor of a point at an accepted state, and return the energy dissipated [J/m]. @p is_between: whether the
-    /// state is the end of a conserving step.
+    /// Set the anchor of a point at an accepted state, and return the energy dissipated [J/m]. @p
+    /// is_between: whether the state is the end of a conserving step.
     double
     accept_shear(const ContactSurface &surface,
                  const bool            is_between,

@@ -57,8 +57,7 @@ namespace NMM
           std::make_shared<double>(std::numeric_limits<double>::infinity()))
     {
       const Loading grows = proportional_loading(problem, parameters.full);
-      Loading       loading;
-      loading.amplitudes = [grows, most = largest_load](const double factor) {
+      loading.amplitudes  = [grows, most = largest_load](const double factor) {
         return grows.amplitudes(std::min(*most, factor));
       };
       term    = make_solid(elasticity, parameters.kinematics, loading);
@@ -90,6 +89,7 @@ namespace NMM
     ContactModel                 *contact;
     FiniteElasticity              elasticity;
     std::shared_ptr<double>       largest_load;
+    Loading                       loading;
     std::unique_ptr<SolidTerm>    term;
     std::unique_ptr<FurtherTerms> further;
     NewtonParameters              newton;
@@ -303,6 +303,13 @@ namespace NMM
   Equilibrium::load_factor() const
   {
     return data->reached;
+  }
+
+
+  ElasticityProblem
+  Equilibrium::problem_now() const
+  {
+    return problem_at(data->problem, data->loading.amplitudes(data->reached));
   }
 
 

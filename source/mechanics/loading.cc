@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
+#include <memory>
 #include <sstream>
 
 namespace NMM
@@ -34,6 +36,45 @@ namespace NMM
       return amplitudes;
     };
     return loading;
+  }
+
+
+  namespace
+  {
+    /// @p function times @p factor; null stays null.
+    std::shared_ptr<const dealii::Function<2>>
+    scaled(const std::shared_ptr<const dealii::Function<2>> &function,
+           const double                                      factor)
+    {
+      if (!function || factor == 1.)
+        return function;
+      std::vector<std::function<double(const dealii::Point<2> &)>> components;
+      for (unsigned int c = 0; c < function->n_components; ++c)
+        components.emplace_back(
+          [function, factor, c](const dealii::Point<2> &x) {
+            return factor * function->value(x, c);
+          });
+      return std::make_shared<dealii::FunctionFromFunctionObjects<2>>(
+        components);
+    }
+  } // namespace
+
+
+  ElasticityProblem
+  problem_at(const ElasticityProblem &problem, const LoadAmplitudes &amplitudes)
+  {
+    ElasticityProblem now = problem;
+    now.gravity *= amplitudes.gravity;
+    now.body_force = scaled(problem.body_force, amplitudes.body_force);
+    for (unsigned int i = 0; i < amplitudes.boundary_conditions.size(); ++i)
+      now.boundary_conditions[i].value =
+        scaled(problem.boundary_conditions[i].value,
+               amplitudes.boundary_conditions[i]);
+    for (unsigned int i = 0; i < amplitudes.point_forces.size(); ++i)
+      now.point_forces[i].force *= amplitudes.point_forces[i];
+    for (unsigned int i = 0; i < amplitudes.fixed_points.size(); ++i)
+      now.fixed_points[i].displacement *= amplitudes.fixed_points[i];
+    return now;
   }
 
 

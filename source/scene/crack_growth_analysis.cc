@@ -11,6 +11,7 @@
 #include <limits>
 #include <mechanics/solid_hash.h>
 #include <scene/crack_growth_analysis.h>
+#include <scene/current_stress.h>
 #include <sstream>
 
 namespace NMM
@@ -32,17 +33,18 @@ namespace NMM
       if (is_restart && fingerprint() != earlier_path->fingerprint)
         refuse_checkpoint(
           "The checkpoint is of another mesh, geometry or material", restart);
-      if (!contact)
+      if (!has_load_path())
       {
         StaticAnalysis::make_system();
         return;
       }
-      contact_loading = std::make_unique<ContactLoading>(
-        scene, *solid, problem, *contact, progress);
+      load_path = std::make_unique<LoadPath>(
+        scene, *solid, problem, contact.get(), progress);
       if (former)
       {
-        contact->continue_from(
-          former->first.contact->largest_penetration_so_far());
+        if (contact)
+          contact->continue_from(
+            former->first.contact->largest_penetration_so_far());
         carried = carry_over();
       }
       else if (is_restart && earlier_path->carried_factor > 0.)
@@ -59,7 +61,7 @@ namespace NMM
                   earlier_path->displacement.end(),
                   carried.displacement.begin());
       }
-      contact_loading->continue_from(carried);
+      load_path->continue_from(carried);
     }
 
 
@@ -67,23 +69,64 @@ namespace NMM
     CrackGrowthAnalysis::carry_over() const
     {
       const auto &[before, state] = *former;
-      return {state.load_factor,
-              CarriedCovers(before.solid->covers(),
-                            solid->covers(),
-                            solid->quadrature())
-                .carry(state.displacement),
-              carry_history(state.history,
-                            before.contact->faces(),
-                            contact->faces(),
-                            contact->contact().parameters().slave_priority),
-              state.friction_work};
+      LoadingState result;
+      result.load_factor  = state.load_factor;
+      result.displacement = CarriedCovers(before.solid->covers(),
+                                          solid->covers(),
+                                          solid->quadrature())
+                              .carry(state.displacement);
+      result.friction_work = state.friction_work;
+      if (contact)
+        result.history =
+          carry_history(state.history,
+                        before.contact->faces(),
+                        contact->faces(),
+                        contact->contact().parameters().slave_priority);
+      return result;
+    }
+
+
+    bool
+    CrackGrowthAnalysis::has_load_path() const
+    {
+      return scene.parameters().contact.is_present() ||
+             scene.parameters().model.kinematics == Kinematics::finite;
+    }
+
+
+    bool
+    CrackGrowthAnalysis::can_have_tip_covers() const
+    {
+      return !has_load_path();
+    }
+
+
+    ElasticityProblem
+    CrackGrowthAnalysis::problem_now() const
+    {
+      return load_path ? load_path->equations().problem_now() : problem;
+    }
+
+
+    void
+    CrackGrowthAnalysis::show(
+      const dealii::TrilinosWrappers::MPI::Vector &solution)
+    {
+      StaticAnalysis::show(solution);
+      if (load_path)
+        evaluator = std::make_unique<FieldEvaluator>(
+          *field,
+          *recovery,
+          problem,
+          CurrentStress::of(load_path->equations().solid_term(),
+                            solid->quadrature()));
     }
 
 
     void
     CrackGrowthAnalysis::clear()
     {
-      contact_loading.reset();
+      load_path.reset();
       StaticAnalysis::clear();
     }
 
@@ -215,9 +258,9 @@ namespace NMM
     void
     CrackGrowthAnalysis::equilibrate()
     {
-      if (contact)
+      if (load_path)
       {
-        equilibrate_contact();
+        equilibrate_on_path();
         return;
       }
       solve_problem();
@@ -229,7 +272,7 @@ namespace NMM
 
 
     void
-    CrackGrowthAnalysis::equilibrate_contact()
+    CrackGrowthAnalysis::equilibrate_on_path()
     {
       constexpr unsigned int most_trials = 20;
       constexpr double       tolerance   = 1e-3;
@@ -243,7 +286,7 @@ namespace NMM
         try
         {
           Stage stage(progress, "solution");
-          show(contact_loading->solve(factor));
+          show(load_path->solve(factor));
         }
         catch (const NumericalFailure &)
         {
@@ -300,16 +343,21 @@ namespace NMM
       growing_tips =
         judge_tips(*crack_tips, parameters, problem, *physical_mesh);
       if (parameters.can_start_cracks(problem.materials))
-        add_new_tips(growing_tips,
-                     *crack_tips,
-                     increments,
-                     parameters,
-                     problem,
-                     solid->covers(),
-                     [this](const unsigned int      element,
-                            const dealii::Point<2> &xi) {
-                       return field->stress(element, xi);
-                     });
+        add_new_tips(
+          growing_tips,
+          *crack_tips,
+          increments,
+          parameters,
+          problem,
+          solid->covers(),
+          load_path
+            ? CurrentStress::in_material_axes(
+                *field,
+                load_path->equations().solid_term().elasticity(),
+                scene.parameters().model.kinematics)
+            : [this](const unsigned int element, const dealii::Point<2> &xi) {
+                return field->stress(element, xi);
+              });
       double most_driven = 0.;
       for (const GrowingTip &tip : growing_tips)
         most_driven = std::max(most_driven, tip.drive);
@@ -328,7 +376,7 @@ namespace NMM
     double
     CrackGrowthAnalysis::scale_of_fields() const
     {
-      return contact ? 1. : load_factor;
+      return load_path ? 1. : load_factor;
     }
 
 
@@ -337,10 +385,16 @@ namespace NMM
     {
       const double scale = scale_of_fields();
       State        state;
-      state.load_factor   = load_factor;
-      state.crack_length  = increments.grown_length();
-      state.strain_energy = scale * scale * small_strain_energy();
-      const auto samples  = probes->evaluate(solid->covers(), *evaluator);
+      state.load_factor  = load_factor;
+      state.crack_length = increments.grown_length();
+      state.strain_energy =
+        scene.parameters().model.kinematics == Kinematics::finite
+          ? problem.thickness *
+              load_path->equations().solid_term().strain_energy_at(
+                load_path->equations().solution(),
+                load_path->equations().load_factor())
+          : scale * scale * small_strain_energy();
+      const auto samples = probes->evaluate(solid->covers(), *evaluator);
       for (unsigned int i = 0; i < samples.size(); ++i)
         if (!scene.parameters().probes[probes->entries()[i].probe].is_line)
           for (unsigned int c = 0; c < 2; ++c)
@@ -455,10 +509,10 @@ namespace NMM
       std::vector<GrowingTip> tips     = std::move(growing_tips);
       const Geometry          before   = geometry;
       const unsigned int      n_blocks = physical_mesh->n_blocks();
-      if (contact)
+      if (load_path)
       {
         // The state is that of equations which refer to the solid, so it is taken first.
-        LoadingState state = contact_loading->state();
+        LoadingState state = load_path->state();
         former.emplace(release_solid(), std::move(state));
       }
       const std::shared_ptr<void> forget(nullptr,

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <scene/contact_loading.h>
 #include <scene/crack_growth.h>
+#include <scene/load_path.h>
 #include <scene/static_analysis.h>
 #include <string>
 #include <vector>
@@ -15,19 +15,19 @@ namespace NMM
   namespace internal
   {
     /**
-     * The growth of cracks in equilibrium, with small displacements and elastic materials.
+     * The growth of cracks in equilibrium, in elastic materials.
      *
      * The drive d of a tip is the ratio of its equivalent intensity factor to the toughness. The
      * crack with the largest d grows first, at the load factor lambda at which d = 1. This gives
      * the equilibrium path for cracks of all lengths, also where the load or the displacement
-     * decreases. Without contact everything is proportional to the loads, so that
+     * decreases. Without contact and finite displacements everything is proportional to the loads, so that
      * @f[ \lambda = \min_\mathrm{tips} \frac{K_c}{K_\mathrm{eq}(1)}, @f]
-     * and fields, pictures, probes and tips are those of the last state under the given loads. With
-     * contact the secant method finds lambda up to an error of a thousandth in d, and fields,
+     * and fields, pictures, probes and tips are those of the last state under the given loads. Otherwise
+     * the secant method finds lambda up to an error of a thousandth in d, and fields,
      * pictures, probes and tips are those at that load factor.
      *
-     * After each increment the solid is cut and meshed again. With contact its displacements and the
-     * history of contact are carried over, and the load continues from the load factor of the
+     * After each increment the solid is cut and meshed again. Unless everything is proportional, its
+     * displacements and the history of contact are carried over, and the load continues from the load factor of the
      * shorter crack, upwards or downwards. Slip that locks or reverses while the crack grows is a
      * part of the path therefore.
      * Limits: with contact one rank.
@@ -90,7 +90,7 @@ namespace NMM
         /// That of the last state's solid, see CrackGrowthAnalysis::fingerprint().
         std::uint64_t fingerprint = 0;
         /// @{
-        /// With contact, the state that was carried over to that solid, see LoadingState.
+        /// Along a load path, the state that was carried over to that solid, see LoadingState.
         double              carried_factor = 0., friction_work = 0.;
         std::vector<double> displacement;
         ContactHistory      history;
@@ -109,11 +109,11 @@ namespace NMM
       static void
       check(const SavedPath &path);
 
-      /// Null without contact.
-      std::unique_ptr<ContactLoading> contact_loading;
-      /// With contact, the solid before the increments that are tried, and its state.
+      /// Null if everything is proportional to the loads.
+      std::unique_ptr<LoadPath> load_path;
+      /// Along a load path, the solid before the increments that are tried, and its state.
       std::optional<std::pair<FormerSolid, LoadingState>> former;
-      /// With contact, the state that was carried over to the present solid; without loads before
+      /// Along a load path, the state that was carried over to the present solid; without loads before
       /// any increment.
       LoadingState       carried;
       std::vector<State> states;
@@ -147,9 +147,22 @@ namespace NMM
       void
       equilibrate();
 
-      /// The same with contact.
+      /// The same along a load path.
       void
-      equilibrate_contact();
+      equilibrate_on_path();
+
+      /// Whether displacements are not proportional to the loads.
+      bool
+      has_load_path() const;
+
+      bool
+      can_have_tip_covers() const override;
+
+      ElasticityProblem
+      problem_now() const override;
+
+      void
+      show(const dealii::TrilinosWrappers::MPI::Vector &solution) override;
 
       /// Sets growing_tips to the tips that grow next. Returns the largest K_eq / K_c of all
       /// tips; 0 if no tip is driven.

@@ -1,6 +1,7 @@
 #include <nmm/base/archive.h>
 #include <nmm/base/exceptions.h>
 #include <nmm/fracture/tip_cover.h>
+#include <nmm/fracture/turned_tip.h>
 
 #include <algorithm>
 #include <cmath>
@@ -201,17 +202,6 @@ namespace NMM
                        const ElasticityProblem &problem,
                        const TipLoading        &loading)
     {
-      compute_each(
-        [&](const CrackTip &tip, const double radius, DiskRules &disk_rules) {
-          return compute_intensity_factors(
-            field, problem, tip, radius, loading, &disk_rules);
-        });
-    }
-
-
-    void
-    CrackTips::compute_each(const FactorsOfTip &factors_of)
-    {
       factors.clear();
       for (unsigned int i = 0; i < tips.size(); ++i)
       {
@@ -222,10 +212,17 @@ namespace NMM
           continue;
         }
         // The free radius of a tip that has grown may be smaller than that at the start.
-        factors.push_back(factors_of(
-          tip,
-          std::min(scene.parameters().fracture.radius, tip.free_radius),
-          rules));
+        const SceneParameters &parameters = scene.parameters();
+        const auto compute = parameters.model.kinematics == Kinematics::finite
+                               ? compute_turned_factors
+                               : compute_intensity_factors;
+        factors.push_back(
+          compute(field,
+                  problem,
+                  tip,
+                  std::min(parameters.fracture.radius, tip.free_radius),
+                  loading,
+                  &rules));
         AssertThrow(std::isfinite(factors.back().K_I) &&
                       std::isfinite(factors.back().K_II),
                     NumericalFailure("The intensity factors are not finite",

@@ -52,20 +52,12 @@ namespace NMM
       void
       restore(std::vector<IntensityFactors> earlier);
 
-      /// Computes the intensity factors of all tips from the solution. Collective.
+      /// Computes the intensity factors of all tips that have some, in the scene's kinematics, from
+      /// the solution under the loads of @p problem. Collective.
       void
       compute(const DisplacementField &field,
               const ElasticityProblem &problem,
               const TipLoading        &loading = {});
-
-      /// Intensity factors of a tip, a function of the tip, of the radius of its disk [m], and of
-      /// rules.
-      using FactorsOfTip =
-        std::function<IntensityFactors(const CrackTip &, double, DiskRules &)>;
-
-      /// Sets the factors of all tips that have some to those that @p factors_of gives.
-      void
-      compute_each(const FactorsOfTip &factors_of);
 
       /// Lines for the report with the intensity factors of the first few tips.
       std::vector<std::string>

@@ -143,6 +143,27 @@ namespace NMM
       }
 
 
+      ElementStress
+      in_material_axes(const DisplacementField &field,
+                       const FiniteElasticity  &elasticity,
+                       const Kinematics         kinematics)
+      {
+        if (kinematics != Kinematics::finite)
+          return [field](const unsigned int element, const Point<2> &xi) {
+            return field.stress(element, xi);
+          };
+        return [field, law = finite(elasticity)](const unsigned int element,
+                                                 const Point<2>    &xi) {
+          const Tensor<2, 2> gradient = field.gradient(element, xi);
+          const Tensor<2, 2> rotation = dealii::project_onto_orthogonal_tensors(
+            Tensor<2, 2>(dealii::unit_symmetric_tensor<2>()) + gradient);
+          const Stress stress = law(element, xi, gradient).in_plane;
+          return dealii::symmetrize(transpose(rotation) * Tensor<2, 2>(stress) *
+                                    rotation);
+        };
+      }
+
+
       FieldEvaluator::StressLaw
       of(const SolidTerm &solid, const QuadratureCollection &quadrature)
       {

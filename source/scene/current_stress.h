@@ -1,6 +1,7 @@
 #ifndef nmm_source_scene_current_stress_h
 #define nmm_source_scene_current_stress_h
 
+#include <nmm/fracture/crack_start.h>
 #include <nmm/mechanics/solid_term.h>
 #include <nmm/output/field_samples.h>
 #include <nmm/quadrature/element_quadrature.h>
@@ -18,6 +19,13 @@ namespace NMM
       /// The Cauchy stress of the materials' hyperelastic laws. All arguments must outlive the law.
       FieldEvaluator::StressLaw
       finite(const FiniteElasticity &elasticity);
+
+      /// The Cauchy stress at the displacements @p field, in axes that turn with the material at each point,
+      /// without viscous stress [Pa]. The elasticity must outlive it.
+      ElementStress
+      in_material_axes(const DisplacementField &field,
+                       const FiniteElasticity  &elasticity,
+                       Kinematics               kinematics);
 
       /// The stress in @p solid; null if it is linear in the displacements. Where the material is
       /// inelastic, the stress at quadrature points in the last assembly of the solid's inelastic

@@ -43,22 +43,6 @@ namespace NMM
                   InputError("cracks grow in motion on one rank only",
                              "parameter 'Fracture/Increments'",
                              "run the scene on one rank"));
-      if (!scene.parameters().fracture.intensity_factors ||
-          scene.parameters().model.kinematics != Kinematics::finite)
-        return;
-      // Intensity factors are computed as seen by an observer who turns with the material.
-      for (const BoundaryCondition &condition : problem.boundary_conditions)
-        for (const unsigned int curve :
-             physical_mesh->find_curves(condition.curve))
-          AssertThrow(
-            physical_mesh->curves()[curve].role != CurveRole::joint ||
-              condition.type == BoundaryCondition::Type::follower_pressure,
-            InputError(
-              "a load on the faces of a crack does not turn with them, "
-              "but intensity factors of finite kinematics need one "
-              "that does",
-              "parameter 'Boundary conditions/" + condition.name + "/Type'",
-              "set it to follower pressure"));
     }
 
 

@@ -106,8 +106,7 @@ namespace NMM
       /// See warn_of_turns().
       bool has_warned_of_turns = false;
 
-      /// @throws InputError for cracks that grow on several ranks, and for loads on cracks that do not
-      /// turn with them in finite kinematics.
+      /// @throws InputError for cracks that grow on several ranks.
       void
       check_problem() override;
 
@@ -213,7 +212,7 @@ namespace NMM
       /// The problem with its loads at the present time, and with the inertia force of a moving
       /// base as a part of gravity.
       ElasticityProblem
-      problem_now() const;
+      problem_now() const override;
 
       /// Computes the intensity factors of all crack tips in the present state, if the scene asks
       /// for them. Collective.
@@ -224,15 +223,6 @@ namespace NMM
       /// [Pa], without viscous stress.
       ElementStress
       stress_in_material_axes() const;
-
-      /// Rotation of the material about a crack tip, in finite kinematics.
-      dealii::Tensor<2, 2>
-      rotation_at(const CrackTip &tip, const DisplacementField &u) const;
-
-      /// The displacements that lead to rotation * (X + u) instead of X + u.
-      DisplacementField
-      turned(const DisplacementField    &u,
-             const dealii::Tensor<2, 2> &rotation) const;
 
       /// Names of the columns of history.csv after time and step. history_values() are their values
       /// in the state at the end of the step @p record.

@@ -50,6 +50,13 @@ namespace NMM
     }
 
 
+    ElasticityProblem
+    NonlinearAnalysis::problem_now() const
+    {
+      return equilibrium->problem_now();
+    }
+
+
     bool
     NonlinearAnalysis::has_large_displacements() const
     {

@@ -85,6 +85,9 @@ namespace NMM
       void
       make_system() override;
 
+      ElasticityProblem
+      problem_now() const override;
+
       bool
       has_large_displacements() const;
 

@@ -80,6 +80,7 @@ namespace NMM
       problem       = scene.make_problem();
       problem.check(*physical_mesh);
       check_problem();
+      check_loads_on_cracks();
       const FractureParameters &fracture = scene.parameters().fracture;
       if (!fracture.intensity_factors)
         return;
@@ -89,6 +90,28 @@ namespace NMM
           !scene.parameters().in_situ_stress.is_present)
         add_tip_covers(std::move(geometry));
       crack_tips = std::make_unique<CrackTips>(scene, *physical_mesh, problem);
+    }
+
+
+    void
+    SceneAnalysis::check_loads_on_cracks() const
+    {
+      if (!scene.parameters().fracture.intensity_factors ||
+          scene.parameters().model.kinematics != Kinematics::finite)
+        return;
+      // Intensity factors are computed as seen by an observer who turns with the material.
+      for (const BoundaryCondition &condition : problem.boundary_conditions)
+        for (const unsigned int curve :
+             physical_mesh->find_curves(condition.curve))
+          AssertThrow(
+            physical_mesh->curves()[curve].role != CurveRole::joint ||
+              condition.type == BoundaryCondition::Type::follower_pressure,
+            InputError(
+              "a load on the faces of a crack does not turn with them, "
+              "but intensity factors of finite kinematics need one "
+              "that does",
+              "parameter 'Boundary conditions/" + condition.name + "/Type'",
+              "set it to follower pressure"));
     }
 
 
@@ -443,7 +466,7 @@ namespace NMM
       TipLoading loading;
       if (contact)
         loading.contact_forces = contact->forces_on_faces();
-      crack_tips->compute(*field, problem, loading);
+      crack_tips->compute(*field, problem_now(), loading);
     }
 
 

@@ -135,6 +135,13 @@ namespace NMM
       FormerSolid
       release_solid();
 
+      /// The problem with the loads of the present state.
+      virtual ElasticityProblem
+      problem_now() const
+      {
+        return problem;
+      }
+
       /// Computes the intensity factors of all crack tips from `field`, if the scene asks for them.
       /// Collective.
       void
@@ -188,6 +195,11 @@ namespace NMM
       /// Makes the physical mesh of a geometry, problem and tips; the first part of build().
       void
       make_physical_mesh(Geometry geometry);
+
+      /// @throws InputError for loads on cracks that do not turn with them, in finite kinematics with intensity
+      /// factors.
+      void
+      check_loads_on_cracks() const;
 
       /// Sets the present geometry to the curves of the physical mesh. The cut may have moved a
       /// curve onto another one that coincides with it within rounding.

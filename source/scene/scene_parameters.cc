@@ -472,16 +472,17 @@ namespace NMM
     const bool is_static  = model.analysis == Analysis::statics,
                is_dynamic = model.analysis == Analysis::dynamics,
                moves = is_dynamic || model.analysis == Analysis::relaxation;
-    check((model.kinematics == Kinematics::small && (is_static || moves)) ||
-            (model.kinematics == Kinematics::finite && moves),
-          "intensity factors are those of small displacements in equilibrium, "
-          "or of motion or relaxation with small or finite kinematics, not "
-          "of " +
-            to_string(model.kinematics) + " kinematics in a " +
-            to_string(model.analysis) + " analysis",
-          "Intensity factors",
-          "set 'Model/Kinematics = small' and 'Model/Analysis' to static, "
-          "dynamic or relaxation, or remove it");
+    check(
+      (model.kinematics == Kinematics::small ||
+       model.kinematics == Kinematics::finite) &&
+        (is_static || moves),
+      "intensity factors are those of equilibrium, motion or relaxation with "
+      "small or finite kinematics, not of " +
+        to_string(model.kinematics) + " kinematics in a " +
+        to_string(model.analysis) + " analysis",
+      "Intensity factors",
+      "set 'Model/Kinematics = small' and 'Model/Analysis' to static, "
+      "dynamic or relaxation, or remove it");
     check(!has_inelastic_material(),
           "intensity factors are not computed in materials that yield",
           "Intensity factors",

@@ -31,7 +31,7 @@ namespace NMM
       solve_problem();
 
       /// Makes field, recovery, evaluator and intensity factors of a solution.
-      void
+      virtual void
       show(const dealii::TrilinosWrappers::MPI::Vector &solution);
 
       void

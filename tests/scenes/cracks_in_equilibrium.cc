@@ -132,4 +132,44 @@ namespace
       EXPECT_NEAR(2. * history.at("upper arm_y")[i], opening, 1e-3 * opening);
     }
   }
+
+
+  // Displacements are 1e-9 of the crack, so that the theory of large ones has the same path. The load that
+  // the secant method finds is exact, since the drive is proportional to it.
+  TEST(CracksInEquilibrium, GrowAlikeInFiniteKinematics)
+  {
+    const std::vector<std::string> arguments = {
+      "--set",
+      "Fracture/Increments=3",
+      "--set",
+      "Fracture/Increment=0.05",
+      "--set",
+      "Fracture/Tips=graded",
+      "--set",
+      "Materials/plate/Toughness=1",
+      "--set",
+      "Materials/plate/Young's modulus=1e9"};
+    const auto run = [&](const std::string &kinematics) {
+      std::vector<std::string> all = arguments;
+      all.insert(all.end(),
+                 {"--set",
+                  "Model/Kinematics=" + kinematics,
+                  NMM_SOURCE_DIR "/tests/scenes/inclined-crack/scene.prm"});
+      const auto                history  = run_growth(all);
+      std::vector<double>       result   = history.at("load_factor");
+      const std::vector<double> energies = unit_energies(history);
+      result.insert(result.end(), energies.begin(), energies.end());
+      for (const auto &[name, cells] :
+           read_columns(NMM_TEST_OUTPUT_DIR "/equilibrium/tips.csv"))
+        if (name == "x" || name == "y")
+          for (const std::string &cell : cells)
+            result.push_back(std::stod(cell));
+      return result;
+    };
+    const std::vector<double> small = run("small"), finite = run("finite");
+    ASSERT_EQ(small.size(), finite.size());
+    ASSERT_EQ(small.size(), 12u);
+    for (unsigned int i = 0; i < small.size(); ++i)
+      EXPECT_NEAR(finite[i], small[i], 1e-6 * std::abs(small[i])) << i;
+  }
 } // namespace

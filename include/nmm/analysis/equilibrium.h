@@ -85,6 +85,10 @@ namespace NMM
     double
     load_factor() const;
 
+    /// The problem with the loads of solution().
+    ElasticityProblem
+    problem_now() const;
+
     /// Forces by which the initial stress is out of balance in the undeformed state with all loads
     /// [N/m], on owned unknowns. To be called after run() with contact, where it is empty unless faces
     /// begin with an initial stress, and else before.

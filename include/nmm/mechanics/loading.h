@@ -65,6 +65,13 @@ namespace NMM
                        const LoadAmplitudes    &full = {});
 
 
+  /// @p problem with gravity, body force and the values of its conditions and points multiplied by
+  /// @p amplitudes. Empty lists stand for 1.
+  ElasticityProblem
+  problem_at(const ElasticityProblem &problem,
+             const LoadAmplitudes    &amplitudes);
+
+
   /**
    * A piecewise linear function of time given by points, e.g. the acceleration of an
    * earthquake. It is 0 before the first and after the last point.

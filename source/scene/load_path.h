@@ -1,5 +1,5 @@
-#ifndef nmm_source_scene_contact_loading_h
-#define nmm_source_scene_contact_loading_h
+#ifndef nmm_source_scene_load_path_h
+#define nmm_source_scene_load_path_h
 
 #include <nmm/analysis/equilibrium.h>
 
@@ -9,7 +9,7 @@ namespace NMM
 {
   namespace internal
   {
-    /// A state of a ContactLoading.
+    /// A state of a LoadPath.
     struct LoadingState
     {
       using Vector = dealii::TrilinosWrappers::MPI::Vector;
@@ -25,7 +25,7 @@ namespace NMM
 
 
     /**
-     * The loading of elastic blocks in contact, with small displacements, to load factors that are
+     * The loading of elastic blocks, with contact or with finite displacements, to load factors that are
      * not known beforehand. It begins without loads, or with the state of a solid that was cut
      * further since. Since friction depends on the history, a load factor between the first and the
      * last one makes the loading begin again; one further away from the first one continues
@@ -34,16 +34,17 @@ namespace NMM
      *
      * Lifetime: the arguments must outlive this object.
      */
-    class ContactLoading
+    class LoadPath
     {
     public:
       using Vector = LoadingState::Vector;
 
-      ContactLoading(const Scene             &scene,
-                     const Solid             &solid,
-                     const ElasticityProblem &problem,
-                     ContactAnalysis         &contact,
-                     Progress                &progress);
+      /// @p contact is null without one.
+      LoadPath(const Scene             &scene,
+               const Solid             &solid,
+               const ElasticityProblem &problem,
+               ContactAnalysis         *contact,
+               Progress                &progress);
 
       /// Makes the loading begin with @p carried. The solution at its load factor, once it was
       /// asked for, takes its place.
@@ -60,10 +61,17 @@ namespace NMM
       LoadingState
       state() const;
 
+      /// The equations.
+      const Equilibrium &
+      equations() const
+      {
+        return equilibrium;
+      }
+
     private:
       const Scene     &scene;
       const Solid     &solid;
-      ContactAnalysis &contact;
+      ContactAnalysis *contact;
       Equilibrium      equilibrium;
       /// The state with which the loading begins.
       LoadingState first;

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <scene/contact_loading.h>
+#include <scene/load_path.h>
 
 namespace NMM
 {
@@ -11,6 +11,7 @@ namespace NMM
       how_to_load(const Scene &scene, Progress &progress)
       {
         EquilibriumParameters how;
+        how.kinematics = scene.parameters().model.kinematics;
         how.newton =
           show_iterations(scene.parameters().newton.newton, progress);
         return how;
@@ -18,21 +19,21 @@ namespace NMM
     } // namespace
 
 
-    ContactLoading::ContactLoading(const Scene             &scene,
-                                   const Solid             &solid,
-                                   const ElasticityProblem &problem,
-                                   ContactAnalysis         &contact,
-                                   Progress                &progress)
+    LoadPath::LoadPath(const Scene             &scene,
+                       const Solid             &solid,
+                       const ElasticityProblem &problem,
+                       ContactAnalysis         *contact,
+                       Progress                &progress)
       : scene(scene)
       , solid(solid)
       , contact(contact)
-      , equilibrium(solid, problem, how_to_load(scene, progress), &contact)
+      , equilibrium(solid, problem, how_to_load(scene, progress), contact)
     {
     }
 
 
     void
-    ContactLoading::begin_anew()
+    LoadPath::begin_anew()
     {
       equilibrium.begin_anew();
       if (first.load_factor > 0.)
@@ -44,7 +45,7 @@ namespace NMM
 
 
     void
-    ContactLoading::continue_from(LoadingState carried)
+    LoadPath::continue_from(LoadingState carried)
     {
       has_begun = false;
       first     = std::move(carried);
@@ -52,20 +53,21 @@ namespace NMM
 
 
     LoadingState
-    ContactLoading::state() const
+    LoadPath::state() const
     {
       LoadingState state{equilibrium.load_factor(),
                          Vector(solid.covers().locally_owned_dofs(2),
                                 solid.covers().communicator()),
-                         contact.contact().history(),
+                         contact != nullptr ? contact->contact().history()
+                                            : ContactHistory(),
                          equilibrium.friction_work()};
       state.displacement = equilibrium.solution();
       return state;
     }
 
 
-    const ContactLoading::Vector &
-    ContactLoading::solve(const double load_factor)
+    const LoadPath::Vector &
+    LoadPath::solve(const double load_factor)
     {
       const LoadStepParameters &given = scene.parameters().load_steps;
       LoadSteps                 steps;

@@ -3,6 +3,7 @@
 #include <nmm/base/memory.h>
 #include <nmm/base/program.h>
 #include <nmm/output/progress.h>
+#include <nmm/scene/capabilities.h>
 #include <nmm/scene/run_scene.h>
 
 #include <deal.II/base/mpi.h>
@@ -72,6 +73,9 @@ namespace
         po::value<std::string>()->implicit_value("prm"),
         "print all parameters, of the scene if one is given, and end; "
         "=prm, =json or =markdown");
+    add("print-capabilities",
+        po::bool_switch(),
+        "print what can be combined, what cannot and why, and end");
     add("help,h", po::bool_switch(), "print this and end");
     add("version", po::bool_switch(), "print the version and end");
     return options;
@@ -146,6 +150,8 @@ namespace
       options.answer = help_text();
     else if (variables["version"].as<bool>())
       options.answer = "nmm " NMM_VERSION "\n";
+    else if (variables["print-capabilities"].as<bool>())
+      options.answer = NMM::capabilities_page();
 
     std::vector<std::string> scenes;
     if (variables.count("scene") > 0)

@@ -131,25 +131,6 @@ namespace NMM
     }
 
 
-    void
-    CrackGrowthAnalysis::check_problem()
-    {
-      StaticAnalysis::check_problem();
-      const bool is_parallel =
-        dealii::Utilities::MPI::n_mpi_processes(communicator) > 1;
-      AssertThrow(!scene.parameters().contact.is_present() || !is_parallel,
-                  InputError("cracks with contact grow on one rank only",
-                             "parameter 'Fracture/Increments'",
-                             "run the scene on one rank"));
-      AssertThrow(!scene.parameters().fracture.can_start_cracks(
-                    problem.materials) ||
-                    !is_parallel,
-                  InputError("cracks start on one rank only",
-                             "parameter 'Materials/.../Fracture strength'",
-                             "run the scene on one rank, or set it to 0"));
-    }
-
-
     std::uint64_t
     CrackGrowthAnalysis::fingerprint() const
     {

@@ -51,10 +51,6 @@ namespace NMM
       void
       clear() override;
 
-      /// @throws InputError for cracks that start, or have contact, on several ranks.
-      void
-      check_problem() override;
-
       std::vector<Increment>
       earlier_increments() override;
 

@@ -36,17 +36,6 @@ namespace NMM
 
 
     void
-    DynamicAnalysis::check_problem()
-    {
-      AssertThrow(scene.parameters().fracture.n_increments == 0 ||
-                    dealii::Utilities::MPI::n_mpi_processes(communicator) == 1,
-                  InputError("cracks grow in motion on one rank only",
-                             "parameter 'Fracture/Increments'",
-                             "run the scene on one rank"));
-    }
-
-
-    void
     DynamicAnalysis::clear()
     {
       clear_equations();

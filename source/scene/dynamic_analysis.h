@@ -106,10 +106,6 @@ namespace NMM
       /// See warn_of_turns().
       bool has_warned_of_turns = false;
 
-      /// @throws InputError for cracks that grow on several ranks.
-      void
-      check_problem() override;
-
       void
       make_system() override;
 

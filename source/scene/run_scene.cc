@@ -2,7 +2,10 @@
 #include <nmm/base/program.h>
 #include <nmm/base/stop.h>
 #include <nmm/output/output_directory.h>
+#include <nmm/scene/capabilities.h>
 #include <nmm/scene/run_scene.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <memory>
 #include <scene/crack_growth_analysis.h>
@@ -104,6 +107,8 @@ namespace NMM
     if (!options.check_only)
       on_first_rank(communicator, [&]() { directory.check(); });
 
+    check_capabilities(scene.parameters(),
+                       dealii::Utilities::MPI::n_mpi_processes(communicator));
     progress.message(scene.title());
     const auto analysis =
       make_analysis(scene, progress, communicator, options.restart);

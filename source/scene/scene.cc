@@ -2,6 +2,7 @@
 #include <nmm/base/input_file.h>
 #include <nmm/base/memory.h>
 #include <nmm/fracture/tip_grading.h>
+#include <nmm/scene/capabilities.h>
 #include <nmm/scene/parameter_tree.h>
 #include <nmm/scene/scene.h>
 
@@ -250,6 +251,7 @@ namespace NMM
         scene_parameters = SceneParameters();
         scene_parameters.parse(*prm, names);
         scene_parameters.check();
+        check_capabilities(scene_parameters, /* n_ranks = */ 1);
         return;
       }
       catch (const internal::UnusedValue &unused)

@@ -371,10 +371,10 @@ namespace NMM
     newton.check(model.kinematics, model.analysis, is_nonlinear());
     output.check();
     exact_solution.check();
-    check_kinematics();
-    check_contact();
+    contact.check();
+    for (const ObstacleParameters &obstacle : obstacles)
+      obstacle.check();
     check_analysis();
-    check_restraints();
     check_fracture();
     check_stages();
   }
@@ -415,13 +415,6 @@ namespace NMM
                            "give it a negative y component alone, such as "
                            "'0, -9.81'"));
     in_situ_stress.check(model.plane_state);
-    for (const Material &material : materials)
-      AssertThrow(!material.has_initial_stress(),
-                  InputError("the material has an initial stress beside the "
-                             "in-situ stress",
-                             "parameter 'Materials/" + material.name +
-                               "/Initial stress'",
-                             "remove one of them"));
   }
 
 
@@ -451,61 +444,17 @@ namespace NMM
   SceneParameters::check_fracture() const
   {
     fracture.check();
-    const auto check = [](const bool         is_fine,
-                          const std::string &what,
-                          const std::string &key,
-                          const std::string &remedy) {
-      AssertThrow(is_fine,
-                  InputError(what, "parameter 'Fracture/" + key + "'", remedy));
-    };
-    check(
-      !fracture.grades_mesh() ||
-        (mathematical_mesh.type != MathematicalMeshParameters::Type::gmsh &&
-         mathematical_mesh.regular.cell_size > 0.),
-      "only a regular or graded mesh of a given cell size can be graded "
-      "towards crack tips",
-      "Tips",
-      "set 'Mathematical mesh/Type = regular' and 'Cell size', or let tips be "
-      "'as meshed'");
-    if (!fracture.intensity_factors)
-      return;
-    const bool is_static  = model.analysis == Analysis::statics,
-               is_dynamic = model.analysis == Analysis::dynamics,
-               moves = is_dynamic || model.analysis == Analysis::relaxation;
-    check(
-      (model.kinematics == Kinematics::small ||
-       model.kinematics == Kinematics::finite) &&
-        (is_static || moves),
-      "intensity factors are those of equilibrium, motion or relaxation with "
-      "small or finite kinematics, not of " +
-        to_string(model.kinematics) + " kinematics in a " +
-        to_string(model.analysis) + " analysis",
-      "Intensity factors",
-      "set 'Model/Kinematics = small' and 'Model/Analysis' to static, "
-      "dynamic or relaxation, or remove it");
-    check(!has_inelastic_material(),
-          "intensity factors are not computed in materials that yield",
-          "Intensity factors",
-          "remove it, or choose an elastic material");
+    AssertThrow(!fracture.grades_mesh() ||
+                  mathematical_mesh.type ==
+                    MathematicalMeshParameters::Type::gmsh ||
+                  mathematical_mesh.regular.cell_size > 0.,
+                InputError("only a mesh of a given cell size can be graded "
+                           "towards crack tips",
+                           "parameter 'Fracture/Tips'",
+                           "set 'Mathematical mesh/Cell size', or let tips be "
+                           "'as meshed'"));
     if (fracture.n_increments == 0)
       return;
-    // A crack would end at joints that have vanished, and what it cuts off would be merged again.
-    check(!geometry.merges_small_blocks,
-          "small blocks are not merged while cracks grow",
-          "Increments",
-          "remove it, or set 'Geometry/Small blocks = report' and draw the "
-          "joints without small blocks");
-    check(is_static || time.sleep.speed == 0.,
-          "sleeping blocks are not available while cracks grow in motion",
-          "Increments",
-          "remove 'Time/Sleep speed'");
-    if (!is_dynamic)
-      expect_default("Fracture",
-                     "Speed",
-                     fracture.speed,
-                     0.,
-                     "a " + to_string(model.analysis) + " analysis",
-                     "remove it, or set 'Model/Analysis = dynamic'");
     AssertThrow(load_steps.load_steps().are_ascending(),
                 InputError("cracks grow under loads that ascend, but a load "
                            "factor is smaller than the one before it",
@@ -521,44 +470,6 @@ namespace NMM
                                " Pa m^0.5, but cracks grow",
                              where + "/Toughness'",
                              "give the material's, > 0"));
-      // The load factor of growth is computed by proportion, which initial stress does not allow.
-      AssertThrow(moves || !(material.has_initial_stress() ||
-                             in_situ_stress.is_present),
-                  InputError("cracks do not grow in a material with initial "
-                             "stress, to which the load factor does not apply",
-                             where + "/Initial stress'",
-                             "remove it, or 'Fracture/Increments'"));
-    }
-  }
-
-
-  void
-  SceneParameters::check_restraints() const
-  {
-    for (const RegionParameters &region : regions)
-    {
-      AssertThrow(region.use != RegionParameters::Use::limit ||
-                    model.analysis == Analysis::dynamics,
-                  UnusedValue("Regions/" + region.name,
-                              "Use",
-                              "limit",
-                              "a " + to_string(model.analysis) + " analysis",
-                              "remove it, or set 'Model/Analysis = dynamic'"));
-      if (region.use != RegionParameters::Use::restraint)
-        continue;
-      AssertThrow(
-        contact.is_present(),
-        InputError("the restraint '" + region.name +
-                     "' would not be used by a scene without contact",
-                   "parameter 'Regions/" + region.name + "/Use'",
-                   "remove it, or set 'Contact/Enforcement = penalty'"));
-      if (model.analysis != Analysis::dynamics)
-        expect_default("Regions/" + region.name,
-                       "Release time",
-                       region.release_time,
-                       -1.,
-                       "a " + to_string(model.analysis) + " analysis",
-                       "remove it, or set 'Model/Analysis = dynamic'");
     }
   }
 } // namespace NMM

@@ -96,18 +96,11 @@ namespace NMM
 
 
   void
-  ContactLawParameters::check(const bool may_be_damped) const
+  ContactLawParameters::check() const
   {
     const std::unique_ptr<ContactLaw> law = parsed_law();
     contact_law_entries().check(
       law_name, values, [this](const std::string &key) { return place(key); });
-    for (const char *key : {"Normal damping", "Shear damping"})
-      AssertThrow(may_be_damped || values.at(key) == 0.,
-                  InputError(std::string("'") + key + " = " +
-                               to_text(values.at(key)) + "' would not be used",
-                             place(key),
-                             "remove it, or set 'Model/Analysis = dynamic' and "
-                             "'Time/Scheme = energy momentum'"));
     AssertThrow(is_bonded || law->tensile_strength == 0.,
                 InputError("a tensile strength of " +
                              to_text(law->tensile_strength) +
@@ -204,8 +197,7 @@ namespace NMM
 
 
   void
-  ContactSectionParameters::check(const Analysis analysis,
-                                  const bool     may_be_damped) const
+  ContactSectionParameters::check() const
   {
     if (!is_present())
     {
@@ -224,11 +216,6 @@ namespace NMM
       return;
     }
     const bool is_augmented = enforcement == Enforcement::augmented_lagrangian;
-    AssertThrow(!is_augmented || analysis == Analysis::statics,
-                InputError("'augmented Lagrangian' is not available with a " +
-                             to_string(analysis) + " analysis",
-                           "parameter 'Contact/Enforcement'",
-                           "set it to penalty, or 'Model/Analysis = static'"));
     if (!is_augmented)
       expect_default("Contact",
                      "Penetration tolerance",
@@ -238,12 +225,6 @@ namespace NMM
                      "remove it, or set 'Enforcement = augmented Lagrangian'");
     if (integration == ContactIntegration::points)
     {
-      AssertThrow(
-        !is_augmented,
-        InputError(
-          "'augmented Lagrangian' is not available with springs at points",
-          "parameter 'Contact/Enforcement'",
-          "set it to penalty, or 'Integration = length'"));
       const ContactSectionParameters defaults;
       expect_default("Contact",
                      "Number of points",
@@ -260,9 +241,9 @@ namespace NMM
                   InputError(std::string("'") + key + "' is " + to_text(value),
                              std::string("parameter 'Contact/") + key + "'",
                              "give a length, or 0 to have it chosen"));
-    law.check(may_be_damped);
+    law.check();
     for (const ContactLawParameters &other : laws)
-      other.check(may_be_damped);
+      other.check();
   }
 
 
@@ -293,7 +274,7 @@ namespace NMM
 
 
   void
-  ObstacleParameters::check(const Analysis analysis) const
+  ObstacleParameters::check() const
   {
     AssertThrow(shape.empty() != file.empty(),
                 InputError("the obstacle '" + name + "' has " +
@@ -301,22 +282,5 @@ namespace NMM
                              " shape",
                            "section 'Obstacles/" + name + "'",
                            "set either 'Shape' or 'File'"));
-    if (analysis != Analysis::dynamics)
-      expect_default("Obstacles/" + name,
-                     "Release time",
-                     release_time,
-                     -1.,
-                     "a " + to_string(analysis) + " analysis",
-                     "remove it, or set 'Model/Analysis = dynamic'");
-    const bool is_relaxed =
-      analysis == Analysis::relaxation || analysis == Analysis::safety_factor;
-    AssertThrow(
-      !is_relaxed || displacement.empty(),
-      UnusedValue("Obstacles/" + name,
-                  "Displacement",
-                  displacement,
-                  "a " + to_string(analysis) +
-                    (analysis == Analysis::relaxation ? "" : " analysis"),
-                  "remove it, or set 'Model/Analysis' to static or dynamic"));
   }
 } // namespace NMM

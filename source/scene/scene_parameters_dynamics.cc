@@ -76,25 +76,6 @@ namespace NMM
 
 
   void
-  TimeDependence::expect_default(const std::string &section,
-                                 const std::string &by) const
-  {
-    const std::string remedy =
-      "remove it, or set 'Model/Analysis = dynamic' with small or finite "
-      "kinematics";
-    const std::string of_condition = section + "/" + name;
-    AssertThrow(amplitude.empty(),
-                UnusedValue(of_condition, "Amplitude", amplitude, by, remedy));
-    AssertThrow(release_time < 0.,
-                UnusedValue(of_condition,
-                            "Release time",
-                            to_text(release_time) + " s",
-                            by,
-                            remedy));
-  }
-
-
-  void
   TimeParameters::list_entries(Entries &entries)
   {
     entries.add("End time",
@@ -220,11 +201,10 @@ namespace NMM
         return;
     }
     AssertThrow(
-      sleep.speed == 0. || (has_contact && sleep.acceleration > 0.),
-      InputError("blocks sleep only in motion with contact, and wake at "
-                 "accelerations above 0",
-                 "parameter 'Time/Sleep speed'",
-                 "set it to 0, or 'Contact' and 'Wake acceleration'"));
+      sleep.speed == 0. || sleep.acceleration > 0.,
+      InputError("blocks that sleep would wake without any acceleration",
+                 "parameter 'Time/Wake acceleration'",
+                 "set it above 0"));
     check_scheme(analysis, kinematics, has_contact);
     if (analysis == Analysis::dynamics)
       check_steps();

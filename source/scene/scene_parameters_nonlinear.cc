@@ -174,79 +174,6 @@ namespace NMM
 
 
   void
-  SceneParameters::check_kinematics() const
-  {
-    const bool        is_static  = model.analysis == Analysis::statics;
-    const std::string kinematics = to_string(model.kinematics) + " kinematics";
-    for (const Material &material : materials)
-      AssertThrow(
-        model.kinematics == Kinematics::finite ||
-          material.law->has_small_strains(),
-        InputError("this law would not be used by " + kinematics,
-                   "parameter 'Materials/" + material.name + "/Law'",
-                   "set 'Law = linear', or 'Model/Kinematics = finite'"));
-    if (model.kinematics == Kinematics::small && is_static && !is_nonlinear())
-    {
-      if (fracture.n_increments == 0)
-        expect_default("Output",
-                       "Fields every",
-                       output.fields_every,
-                       0,
-                       name_of(model.kinematics, is_nonlinear()),
-                       become_nonlinear);
-      return;
-    }
-
-    const std::string name =
-      !is_static ? to_string(model.analysis) + " analysis"
-      : model.kinematics == Kinematics::small
-        ? (contact.is_present()       ? "contact"
-           : has_inelastic_material() ? "inelastic materials"
-                                      : "stages")
-        : kinematics;
-    AssertThrow(covers.stabilization != Stabilization::ghost_penalty,
-                InputError("'ghost penalty' is not available with " + name,
-                           "parameter 'Covers/Stabilization'",
-                           "set 'Stabilization = aggregation'"));
-    AssertThrow(solver.type != LinearSolverParameters::Type::iterative,
-                InputError("'iterative' is not available with " + name,
-                           "parameter 'Solver/Type'",
-                           "set 'Type' to automatic or direct"));
-    AssertThrow(!solver.estimate_condition,
-                InputError("'true' is not available with " + name,
-                           "parameter 'Solver/Condition number'",
-                           "set it to false, or 'Model/Kinematics = small' and "
-                           "'Model/Analysis = static'"));
-    AssertThrow(exact_solution.type == ExactSolutionParameters::Type::none,
-                InputError("the thick ring is no solution of " + name,
-                           "parameter 'Exact solution/Type'",
-                           "set it to none, or 'Model/Kinematics = small' and "
-                           "'Model/Analysis = static'"));
-  }
-
-
-  void
-  SceneParameters::check_contact() const
-  {
-    using Scheme             = TimeParameters::Scheme;
-    const bool may_be_damped = model.analysis == Analysis::dynamics &&
-                               (time.scheme == Scheme::automatic ||
-                                time.scheme == Scheme::energy_momentum);
-    contact.check(model.analysis, may_be_damped);
-    for (const ObstacleParameters &obstacle : obstacles)
-    {
-      AssertThrow(
-        contact.is_present(),
-        InputError("the obstacle '" + obstacle.name +
-                     "' would not be used by a scene without contact",
-                   "parameter 'Obstacles/Names'",
-                   "remove it, or set 'Contact/Enforcement = penalty'"));
-      obstacle.check(model.analysis);
-    }
-  }
-
-
-  void
   SceneParameters::check_analysis() const
   {
     time.check(model.analysis, model.kinematics, contact.is_present());
@@ -260,25 +187,7 @@ namespace NMM
                        ? Analysis::relaxation
                        : model.analysis);
     check_safety_factor();
-    check_loads_in_time();
-    const std::string analysis = to_string(model.analysis) + " analysis";
-    if (model.analysis != Analysis::dynamics)
-      for (const InitialVelocityParameters &velocity : initial_velocities)
-        AssertThrow(false,
-                    UnusedValue("Initial velocities",
-                                "Names",
-                                velocity.name,
-                                "a " + analysis,
-                                "remove it, or set 'Model/Analysis = "
-                                "dynamic'"));
-    if (!may_be_continued())
-      expect_default("Output",
-                     "Checkpoint every",
-                     output.checkpoint_every,
-                     0.,
-                     "a " + analysis,
-                     "remove it, or set 'Model/Analysis = dynamic', or let "
-                     "cracks grow in a static analysis");
+    check_releases();
     check_output_quantities();
     if (model.analysis == Analysis::statics)
       return;
@@ -287,7 +196,8 @@ namespace NMM
                   InputError("the density is " + to_text(material.density),
                              "parameter 'Materials/" + material.name +
                                "/Density'",
-                             "a " + analysis + " needs it above 0"));
+                             "a " + to_string(model.analysis) +
+                               " analysis needs it above 0"));
   }
 
 
@@ -321,17 +231,9 @@ namespace NMM
   SceneParameters::check_safety_factor() const
   {
     safety_factor.check(model.analysis);
-    if (model.analysis != Analysis::safety_factor)
+    if (model.analysis != Analysis::safety_factor || has_inelastic_material() ||
+        !contact.is_present())
       return;
-    AssertThrow(is_nonlinear(),
-                InputError("a scene without contact and without a material "
-                           "that yields has no strength",
-                           "parameter 'Model/Analysis'",
-                           "set 'Contact/Enforcement = penalty', and a "
-                           "friction angle or a cohesion, or a material's "
-                           "'Law = Mohr-Coulomb'"));
-    if (has_inelastic_material())
-      return check_safety_output();
     const auto has_strength = [](const ContactLawParameters &law) {
       return law.make_law(CoulombLaw())->transmits_shear();
     };
@@ -341,24 +243,11 @@ namespace NMM
                 InputError("no law of contact has strength to be reduced",
                            "section 'Contact'",
                            "give a friction angle or a cohesion"));
-    check_safety_output();
   }
 
 
   void
-  SceneParameters::check_safety_output() const
-  {
-    AssertThrow(
-      output.fields_every == 0,
-      InputError(
-        "a series of fields is not available with a safety factor analysis",
-        "parameter 'Output/Fields every'",
-        "remove it"));
-  }
-
-
-  void
-  SceneParameters::check_loads_in_time() const
+  SceneParameters::check_releases() const
   {
     if (model.analysis == Analysis::dynamics)
       for (const BoundaryConditionParameters &condition : boundary_conditions)
@@ -370,26 +259,6 @@ namespace NMM
                                "parameter 'Boundary conditions/" +
                                  condition.name + "/Release time'",
                                "remove it, and let 'Amplitude' become 0"));
-    if (model.analysis == Analysis::dynamics)
-      return;
-
-    const std::string by = "a " + to_string(model.analysis) + " analysis";
-    for (const BoundaryConditionParameters &condition : boundary_conditions)
-      condition.time.expect_default("Boundary conditions", by);
-    for (const PointForceParameters &force : point_forces)
-      force.time.expect_default("Point forces", by);
-    for (const FixedPointParameters &point : fixed_points)
-      point.time.expect_default("Fixed points", by);
-    for (const auto &[key, text] :
-         {std::make_pair("Gravity amplitude", model.gravity_amplitude),
-          std::make_pair("Body force amplitude", model.body_force_amplitude),
-          std::make_pair("Base acceleration", model.base_acceleration)})
-      AssertThrow(text.empty(),
-                  UnusedValue("Model",
-                              key,
-                              text,
-                              by,
-                              "remove it, or set 'Model/Analysis = dynamic'"));
   }
 
 
@@ -447,30 +316,11 @@ namespace NMM
                                "section 'Stages'"));
       return;
     }
-    const std::string names = "parameter 'Stages/Names'";
-    AssertThrow(model.analysis == Analysis::statics,
-                InputError("there are stages in a " +
-                             to_string(model.analysis) + " analysis",
-                           names,
-                           "set 'Model/Analysis = static'; other analyses have "
-                           "no stages yet"));
-    AssertThrow(fracture.n_increments == 0,
-                InputError("there are stages in a scene whose cracks grow",
-                           names,
-                           "remove one of the two; they do not go together "
-                           "yet"));
     const LoadSteps steps = load_steps.load_steps();
     AssertThrow(steps.are_ascending() && steps.load_factors.back() == 1.,
                 InputError("the load factors of stages do not ascend to 1",
                            "parameter 'Load steps/Load factors'",
                            "they are those of each stage: let them ascend to "
                            "1"));
-    for (const ObstacleParameters &obstacle : obstacles)
-      AssertThrow(obstacle.displacement.empty(),
-                  InputError("the obstacle '" + obstacle.name +
-                               "' moves in a scene with stages",
-                             "parameter 'Obstacles/" + obstacle.name +
-                               "/Displacement'",
-                             "let it rest"));
   }
 } // namespace NMM

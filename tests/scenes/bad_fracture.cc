@@ -22,8 +22,14 @@ namespace
     rejects("Fracture/Grading=0", {"'Grading'", "0", "(0, 1]"});
     rejects("Fracture/Grading=2", {"Grading", "2"});
     rejects("Fracture/Tips=sharp", {"sharp", "graded", "as meshed"});
-    rejects("Model/Kinematics=finite",
-            {"intensity factors", "finite", "Model/Kinematics = small"});
+    expect_rejected_with(
+      cracked +
+        std::vector<std::string>{"Model/Kinematics=finite",
+                                 "Boundary conditions/Names=held, faces",
+                                 "Boundary conditions/faces/Boundary=crack",
+                                 "Boundary conditions/faces/Value=1"},
+      "Boundary conditions/faces/Type=pressure",
+      {"faces", "follower pressure"});
     expect_rejected_with(
       cracked +
         std::vector<std::string>{"Relaxation/Step=0.1",

@@ -206,8 +206,7 @@ namespace
                           "Mohr-Coulomb"});
     expect_rejected_rock("Materials/rock/Initial stress=1, 2",
                          {"Initial stress"});
-    expect_rejected_rock("Solver/Type=iterative",
-                         {"Solver/Type", "inelastic materials"});
+    expect_rejected_rock("Solver/Type=iterative", {"Solver/Type", "yield"});
     expect_rejected_override("Output/Picture quantity=plastic strain",
                              {"Picture quantity", "yields", "Mohr-Coulomb"});
   }
@@ -568,7 +567,7 @@ namespace
                     {"glue", "Contact/Names"});
     expect_rejected(
       {"--set", "Obstacles/Names=floor", "--set", touching[2], base_scene},
-      {"'floor'", "Obstacles/Names", "Contact/Enforcement"});
+      {"obstacles", "Obstacles/Names", "Contact/Enforcement"});
   }
 
 

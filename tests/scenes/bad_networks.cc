@@ -64,7 +64,7 @@ namespace
                           "Fracture/Increment=0.1",
                           "Materials/rock/Toughness=1"},
                          "Fracture/Increments=1",
-                         {"small blocks", "cracks grow", "report"});
+                         {"small blocks", "cracks that grow", "report"});
   }
 
 
@@ -188,7 +188,7 @@ namespace
     rejects("File=pit.wkt", {"'pit'", "more than one shape"});
     rejects("Shape=LINESTRING (0 0, 1 1)", {"'pit'", "not closed", "POLYGON"});
     rejects("Material=soil", {"'pit'", "'soil'", "middle"});
-    rejects("Use=restraint", {"'pit'", "Regions/pit/Use", "contact"});
+    rejects("Use=restraint", {"Regions/pit/Use", "contact"});
     rejects("Release time=1", {"Release time", "restraint"});
     expect_rejected_with({"Regions/Names=pit",
                           "Regions/pit/Shape=CIRCLE (0.5 1, 0.25)",

@@ -451,16 +451,20 @@ namespace
   }
 
 
-  TEST(Driver, ParameterReferenceIsUpToDate)
+  TEST(Driver, PagesFromTheCodeAreUpToDate)
   {
-    const DriverResult generated = run_driver({"--print-parameters=markdown"});
-    ASSERT_EQ(generated.exit_code, 0) << generated.output;
-    std::ifstream     file(NMM_SOURCE_DIR "/doc/parameters.md");
-    std::stringstream committed;
-    committed << file.rdbuf();
-    EXPECT_TRUE(committed.str() == generated.output)
-      << "doc/parameters.md does not match the code; regenerate it by\n"
-         "  build/release/bin/nmm --print-parameters=markdown "
-         "> doc/parameters.md";
+    for (const auto &[option, page] :
+         {std::make_pair("--print-parameters=markdown", "doc/parameters.md"),
+          std::make_pair("--print-capabilities", "doc/capabilities.md")})
+    {
+      const DriverResult generated = run_driver({option});
+      ASSERT_EQ(generated.exit_code, 0) << generated.output;
+      std::ifstream     file(NMM_SOURCE_DIR + std::string("/") + page);
+      std::stringstream committed;
+      committed << file.rdbuf();
+      EXPECT_TRUE(committed.str() == generated.output)
+        << page << " does not match the code; regenerate it by\n"
+        << "  build/release/bin/nmm " << option << " > " << page;
+    }
   }
 } // namespace

@@ -432,8 +432,8 @@ namespace NMM
     void
     parse(dealii::ParameterHandler &prm, const SceneNames &names);
 
-    /// Checks all parameters, each and in combination. @throws InputError naming the parameter and
-    /// its value.
+    /// Checks the values of all parameters. What can be combined is checked by
+    /// check_capabilities(). @throws InputError naming the parameter and its value.
     void
     check() const;
 
@@ -459,27 +459,18 @@ namespace NMM
     void
     list_entries(internal::Entries &entries, const SceneNames &names);
 
-    /// The following functions check that parameters are available together, and that each one is
-    /// used. @throws InputError otherwise.
-    void
-    check_kinematics() const;
-    void
-    check_contact() const;
+    /// The following functions check values that depend on those of other sections. @throws
+    /// InputError otherwise.
     void
     check_analysis() const;
     void
     check_safety_factor() const;
-
     void
     check_stages() const;
     void
-    check_safety_output() const;
-    void
     check_output_quantities() const;
     void
-    check_loads_in_time() const;
-    void
-    check_restraints() const;
+    check_releases() const;
     void
     check_fracture() const;
     void

@@ -17,8 +17,6 @@ namespace NMM
     class Entries;
   }
 
-  enum class Analysis;
-
   /// The method that keeps faces from penetrating each other.
   enum class Enforcement
   {
@@ -50,10 +48,9 @@ namespace NMM
     void
     list_entries(internal::Entries &entries);
 
-    /// Checks all values. @p may_be_damped says whether the time scheme has dashpots between
-    /// faces. @throws InputError naming the parameter and its value.
+    /// Checks all values. @throws InputError naming the parameter and its value.
     void
-    check(bool may_be_damped) const;
+    check() const;
 
     /// Makes the law; stiffnesses that the scene leaves open are those of @p springs.
     std::shared_ptr<const ContactLaw>
@@ -111,10 +108,10 @@ namespace NMM
     list_entries(internal::Entries              &entries,
                  const std::vector<std::string> &law_names);
 
-    /// Checks all values; @p may_be_damped is as in ContactLawParameters::check(). @throws
-    /// InputError naming the parameter that is wrong, or that would not be used.
+    /// Checks all values. @throws InputError naming the parameter that is wrong, or that would not be
+    /// used.
     void
-    check(Analysis analysis, bool may_be_damped) const;
+    check() const;
   };
 
 
@@ -136,10 +133,9 @@ namespace NMM
     /// Declares or reads the entries of the obstacle.
     void
     list_entries(internal::Entries &entries);
-    /// Checks that there is one shape, and that all values are used by the analysis.
-    /// @throws InputError naming the parameter and its value.
+    /// Checks that there is one shape. @throws InputError otherwise.
     void
-    check(Analysis analysis) const;
+    check() const;
   };
 } // namespace NMM
 

@@ -53,10 +53,6 @@ namespace NMM
     /// Declares or reads the entries; there is a release time only if @p may_be_released.
     void
     list_entries(internal::Entries &entries, bool may_be_released);
-    /// Checks that nothing is set, for an analysis that does not use it; @p section is that of
-    /// the load. @throws InputError saying that @p by makes no use of the value.
-    void
-    expect_default(const std::string &section, const std::string &by) const;
   };
 
 

@@ -1,3 +1,4 @@
+#include <nmm/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>

@@ -814,6 +814,7 @@ namespace NMM
           BoltReport::Place place;
           place.s     = side == 0 ? elements[e].begin : elements[e].end;
           place.x     = stations[station].x;
+          place.u     = u[station];
           place.force = given.spacing * axial[e + side];
           if (is_installed && elements[e].is_bonded && !is_absent[station])
           {

@@ -79,6 +79,8 @@ namespace NMM
       double s = 0.;
       /// Place in the reference configuration [m].
       dealii::Point<2> x;
+      /// Displacement of the rock there [m].
+      dealii::Tensor<1, 2> u;
       /// Axial force, positive in tension [N].
       double force = 0.;
       /// Displacement of the bar relative to the rock, positive towards the toe [m]; 0 without bond.

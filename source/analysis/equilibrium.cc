@@ -66,7 +66,8 @@ namespace NMM
                                                term->layout());
       newton  = newton_at_rest(parameters.newton,
                               contact != nullptr ||
-                                term->inelastic_terms() != nullptr);
+                                term->inelastic_terms() != nullptr ||
+                                !parameters.further_terms.empty());
       make_equations();
     }
 

@@ -311,7 +311,8 @@ namespace NMM
                                 parameters,
                                 data->contact.get());
     if (data->phase != Phase::undeformed)
-      reduction.start_from({data->u, data->history, data->materials});
+      reduction.start_from(
+        {data->u, data->history, data->materials, data->of_terms});
     const SafetyFactor result = reduction.find();
     if (data->contact)
       data->contact->begin_anew();

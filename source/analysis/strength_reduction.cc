@@ -56,6 +56,7 @@ namespace NMM
         equations.contact_account()->continue_from(begin.contact);
       if (terms != nullptr)
         terms->restore_internal_state(begin.materials);
+      equations.further_terms().restore(begin.terms);
       integrator.initialize(begin.displacement, equations.zero());
     }
     StrengthTrial trial = try_to_stand(integrator,

@@ -19,7 +19,7 @@ namespace NMM
   namespace
   {
     constexpr unsigned int max_places = 12;
-    const std::string      head       = "time,frame";
+    const std::string      head       = "time,frame 2";
 
 
     /// Copies the values of @p quantity from its layer into the triangles, if there is one.

@@ -464,6 +464,21 @@ namespace NMM
     constexpr double grown_face_width = 3.2;
 
 
+    /// Width of a bolt without force, and what the largest force adds [thousandths of the picture
+    /// width].
+    constexpr double bolt_width = 1.2, bolt_width_of_force = 4.;
+
+
+    /// White without force, red in tension and blue in compression.
+    std::array<double, 4>
+    bolt_colour(const double share)
+    {
+      const double rest = 1. - std::min(1., std::abs(share));
+      return share >= 0. ? std::array<double, 4>{{1., rest, rest, 1.}}
+                         : std::array<double, 4>{{rest, rest, 1., 1.}};
+    }
+
+
     /// The legend of crack tips and grown faces, below the plot.
     void
     draw_legend_of_cracks(cairo_t           *cr,
@@ -526,6 +541,14 @@ namespace NMM
                  {grown_face_width,
                   CAIRO_LINE_CAP_ROUND,
                   {{0.05, 0.05, 0.05, 1.}}});
+      for (const PictureData::BoltLine &bolt : data.bolts)
+        draw_lines(cr,
+                   {bolt.line},
+                   layout,
+                   scale,
+                   {bolt_width + bolt_width_of_force * std::abs(bolt.share),
+                    CAIRO_LINE_CAP_BUTT,
+                    bolt_colour(bolt.share)});
       draw_obstacles(cr, data, layout);
       draw_bars(cr, data, layout, largest_traction);
       for (const PictureData::Vertex &tip : data.tips)

@@ -27,7 +27,7 @@ namespace NMM
       {C::growth, "cracks that grow", "Fracture/Increments"},
       {C::no_growth, "cracks that do not grow", ""},
       {C::one_state,
-       "small kinematics without contact and without a material that yields",
+       "small kinematics without contact, bolts and a material that yields",
        ""},
       {C::small_kinematics, "small kinematics", "Model/Kinematics = small"},
       {C::finite_kinematics, "finite kinematics", "Model/Kinematics = finite"},
@@ -42,6 +42,7 @@ namespace NMM
        "the initial stress of a material",
        "Materials/.../Initial stress"},
       {C::in_situ_stress, "in-situ stress", "In-situ stress/Type = K0"},
+      {C::bolts, "bolts", "Bolts/Names"},
       {C::contact, "contact", "Contact/Enforcement = penalty"},
       {C::no_contact, "a scene without contact", ""},
       {C::augmented_lagrangian,
@@ -215,6 +216,7 @@ namespace NMM
       add(C::series_of_fields,
           p.output.fields_every > 0,
           std::to_string(p.output.fields_every));
+      add(C::bolts, !p.bolts.empty());
       add(C::several_ranks, n_ranks > 1);
     }
 
@@ -369,6 +371,7 @@ namespace NMM
                                                    C::finite_kinematics,
                                                    C::contact,
                                                    C::yielding,
+                                                   C::bolts,
                                                    C::stages};
 
     const char *const become_dynamic =
@@ -484,6 +487,10 @@ namespace NMM
        "factor does not apply to initial stress",
        "remove it, or 'Fracture/Increments', or set 'Model/Analysis' to "
        "dynamic or relaxation"},
+      {{{C::bolts}, {C::growth}},
+       "it has not been built: what bolts remember is not carried over to the "
+       "solid that is cut again",
+       "remove one of the two"},
       {{{C::crack_starts}, {C::several_ranks}},
        "it has not been built: each rank knows the stress at its own part of "
        "the boundary only",

@@ -90,7 +90,10 @@ namespace NMM
         scene.make_damping(*physical_mesh, problem, contact && has_friction());
       how.damping = damping;
       how.newton  = motion_newton_parameters(scene, progress);
-      motion      = std::make_unique<Motion>(*solid,
+      bolts       = SceneBolts::make(scene);
+      if (bolts)
+        how.further_terms = {bolts->maker()};
+      motion = std::make_unique<Motion>(*solid,
                                         problem,
                                         std::move(how),
                                         contact.get());
@@ -279,6 +282,7 @@ namespace NMM
         contact->hold_obstacles(false);
       if (InelasticTerms *const terms = inelastic_terms())
         terms->restore_internal_state(start.material_state);
+      motion->further_terms().restore(start.term_state);
       Vector v = motion->zero();
       if (!scene.parameters().initial_velocities.empty())
         v = initial_velocity();

@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <optional>
+#include <scene/bolts.h>
 #include <scene/growth_in_motion.h>
 #include <scene/probe_history.h>
 #include <scene/scene_analysis.h>
@@ -66,7 +67,9 @@ namespace NMM
 
       Analysis kind;
 
-      std::unique_ptr<Motion> motion;
+      /// Null without bolts.
+      std::unique_ptr<SceneBolts> bolts;
+      std::unique_ptr<Motion>     motion;
       /// The damping, with the coefficients that Scene::make_damping() chooses.
       RayleighDamping damping;
       /// Null if no block may leave the scene.
@@ -219,6 +222,10 @@ namespace NMM
       /// [Pa], without viscous stress.
       ElementStress
       stress_in_material_axes() const;
+
+      /// Adds the present state of bolts to their tables.
+      void
+      write_bolts();
 
       /// Names of the columns of history.csv after time and step. history_values() are their values
       /// in the state at the end of the step @p record.

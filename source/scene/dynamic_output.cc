@@ -233,6 +233,7 @@ namespace NMM
     DynamicAnalysis::write_state_of_series()
     {
       show();
+      write_bolts();
       std::ostringstream description;
       description << "t = " << time() << " s";
       series->write(step_number() / scene.parameters().output.fields_every,
@@ -240,6 +241,19 @@ namespace NMM
                     description.str(),
                     *evaluator,
                     sample_cracks().get());
+    }
+
+
+    void
+    DynamicAnalysis::write_bolts()
+    {
+      if (!bolts)
+        return;
+      bolts->take_state(displacement());
+      bolts->add_rows(step_number(), time());
+      series->show_bolts(bolts.get());
+      if (is_first_rank())
+        bolts->write(*directory);
     }
 
 
@@ -340,6 +354,13 @@ namespace NMM
                     length + "^2");
       if (contact)
         contact->add_to_summary(summary);
+      if (bolts)
+      {
+        write_bolts();
+        bolts->add_to(summary);
+        for (const std::string &line : bolts->description())
+          progress.message("  " + line);
+      }
       if (crack_tips)
         crack_tips->add_to(summary);
       if (growth)

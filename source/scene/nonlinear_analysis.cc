@@ -27,6 +27,9 @@ namespace NMM
       EquilibriumParameters  how;
       how.kinematics = parameters.model.kinematics;
       how.newton     = show_iterations(parameters.newton.newton, progress);
+      bolts          = SceneBolts::make(scene);
+      if (bolts)
+        how.further_terms = {bolts->maker()};
       try
       {
         equilibrium =
@@ -97,6 +100,9 @@ namespace NMM
       finish();
       if (crack_tips)
         for (const std::string &line : crack_tips->description())
+          progress.message("  " + line);
+      if (bolts)
+        for (const std::string &line : bolts->description())
           progress.message("  " + line);
       is_solved = true;
     }
@@ -216,6 +222,12 @@ namespace NMM
       if (crack_tips)
         row.tip_numbers = crack_tips->numbers();
       history.push_back(row);
+      if (bolts)
+      {
+        bolts->take_state(solution);
+        bolts->add_rows(history.size(), row.load_factor);
+        series->show_bolts(bolts.get());
+      }
 
       std::ostringstream line;
       line << "    load factor " << std::left << std::setw(10)
@@ -228,6 +240,8 @@ namespace NMM
              << scene.parameters().output.length_unit << "^2 have yielded";
       if (contact)
         line << "; " << contact->progress();
+      if (bolts)
+        line << "; " << bolts->progress();
       progress.message(line.str());
 
       last_solution = solution;
@@ -325,6 +339,8 @@ namespace NMM
       }
       if (contact)
         contact->add_to_summary(summary);
+      if (bolts)
+        bolts->add_to(summary);
       if (crack_tips)
         crack_tips->add_to(summary);
     }
@@ -373,6 +389,8 @@ namespace NMM
       if (is_first_rank())
         directory->write_text("history.csv",
                               [&](std::ostream &out) { write_history(out); });
+      if (is_first_rank() && bolts)
+        bolts->write(*directory);
     }
 
 

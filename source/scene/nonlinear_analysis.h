@@ -6,6 +6,7 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <scene/bolts.h>
 #include <scene/scene_analysis.h>
 #include <string>
 #include <utility>
@@ -63,6 +64,8 @@ namespace NMM
         std::optional<Plastic> plastic;
       };
 
+      /// Null without bolts.
+      std::unique_ptr<SceneBolts> bolts;
       /// Null if a block floats.
       std::unique_ptr<Equilibrium> equilibrium;
       /// The failure to set up equations, since a block floats. It is not an input error, so

@@ -6,6 +6,7 @@
 #include <analysis/mechanism.h>
 #include <cmath>
 #include <iomanip>
+#include <scene/bolts.h>
 #include <scene/current_stress.h>
 #include <scene/safety_factor_analysis.h>
 #include <scene/static_start.h>
@@ -55,6 +56,7 @@ namespace NMM
                                           /* has_contact = */ true);
       how.contact_update    = update_in_relaxation(how.scheme);
       how.newton            = motion_newton_parameters(scene, progress);
+      how.further_terms     = SceneBolts::makers(scene);
       reduction             = std::make_unique<StrengthReduction>(*solid,
                                                       problem,
                                                       std::move(parameters),
@@ -78,6 +80,7 @@ namespace NMM
       start.displacement =
         find_start({scene, *solid, problem, contact.get(), progress}, report);
       start.materials = report.material_state;
+      start.terms     = report.term_state;
       n_start_steps   = report.n_steps;
       if (contact)
         start.contact = contact->contact().history();

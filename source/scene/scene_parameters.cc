@@ -225,6 +225,7 @@ namespace NMM
     names.boundary_conditions = {"<condition>"};
     names.point_forces        = {"<force>"};
     names.fixed_points        = {"<fixed point>"};
+    names.bolts               = {"<bolt>"};
     names.contact_laws        = {"<law>"};
     names.obstacles           = {"<obstacle>"};
     names.initial_velocities  = {"<velocity>"};
@@ -251,6 +252,7 @@ namespace NMM
         {"Boundary conditions", &names.boundary_conditions},
         {"Point forces", &names.point_forces},
         {"Fixed points", &names.fixed_points},
+        {"Bolts", &names.bolts},
         {"Contact", &names.contact_laws},
         {"Obstacles", &names.obstacles},
         {"Initial velocities", &names.initial_velocities},
@@ -332,7 +334,8 @@ namespace NMM
   bool
   SceneParameters::is_nonlinear() const
   {
-    return contact.is_present() || has_inelastic_material() || !stages.empty();
+    return contact.is_present() || has_inelastic_material() ||
+           !stages.empty() || !bolts.empty();
   }
 
 
@@ -377,6 +380,7 @@ namespace NMM
     check_analysis();
     check_fracture();
     check_stages();
+    check_bolts();
   }
 
 

@@ -280,6 +280,11 @@ namespace NMM
       names.fixed_points,
       fixed_points,
       "Names of the points, each with a subsection of its own.");
+    entries.section_of_subsections(
+      "Bolts",
+      names.bolts,
+      bolts,
+      "Names of the bolts and anchors, each with a subsection of its own.");
     entries.section("Contact", [&]() {
       contact.list_entries(entries, names.contact_laws);
     });

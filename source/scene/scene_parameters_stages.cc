@@ -14,6 +14,10 @@ namespace NMM
                 removed_regions,
                 "Names of regions with 'Use = staged' that are removed at the "
                 "beginning of the stage.");
+    entries.add("Install",
+                installed,
+                "Names of bolts that are installed at the beginning of the "
+                "stage, without force but their pretension.");
     entries.add("Relaxation",
                 relaxation,
                 dealii::Patterns::Double(0., 1.),

@@ -162,6 +162,8 @@ namespace NMM
                     contact->points(),
                     data,
                     contact->pressure_of_rounding());
+      if (bolts != nullptr && evaluator != nullptr)
+        bolts->add_to(data);
       if (cracks != nullptr)
         add_cracks(*cracks, data);
       if (is_first_rank(*covers))

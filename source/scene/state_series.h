@@ -9,6 +9,7 @@
 #include <nmm/scene/scene.h>
 
 #include <memory>
+#include <scene/bolts.h>
 #include <scene/contact_analysis.h>
 #include <string>
 
@@ -39,6 +40,13 @@ namespace NMM
       /// outlive this object. @p contact is null if it was null in the constructor.
       void
       follow(const CoverSystem &covers, const ContactAnalysis *contact);
+
+      /// Draws the last state of @p bolts in all further pictures, unless it is null.
+      void
+      show_bolts(const SceneBolts *shown)
+      {
+        bolts = shown;
+      }
 
       /// Continues an earlier run, whose states up to the time or load factor @p last are kept.
       void
@@ -89,6 +97,7 @@ namespace NMM
       const CoverSystem     *covers;
       const ContactAnalysis *contact;
       const OutputDirectory *directory;
+      const SceneBolts      *bolts = nullptr;
       /// The writers, which are used on rank 0 only.
       FileSeries                     files;
       std::unique_ptr<FileSeries>    tip_files;

@@ -6,6 +6,7 @@
 #include <analysis/mechanism.h>
 #include <iomanip>
 #include <memory>
+#include <scene/bolts.h>
 #include <scene/static_start.h>
 #include <sstream>
 #include <utility>
@@ -50,6 +51,7 @@ namespace NMM
         how.kinematics = parameters.model.kinematics;
         how.full       = amplitudes_at_start(input.scene);
         how.newton = show_iterations(parameters.newton.newton, input.progress);
+        how.further_terms = SceneBolts::makers(input.scene);
         Equilibrium equilibrium(input.solid, input.problem, how, input.contact);
         LoadSteps   steps = parameters.load_steps.load_steps();
         // One linear problem needs no steps.
@@ -64,6 +66,7 @@ namespace NMM
         if (const InelasticTerms *terms =
               equilibrium.solid_term().inelastic_terms())
           report.material_state = terms->internal_state();
+        report.term_state = equilibrium.further_terms().save();
         Vector owned(input.solid.covers().locally_owned_dofs(2),
                      input.solid.covers().communicator());
         owned = equilibrium.solution();
@@ -111,6 +114,7 @@ namespace NMM
         if (const InelasticTerms *terms =
               relaxing.motion.solid_term().inelastic_terms())
           report.material_state = terms->internal_state();
+        report.term_state = relaxing.motion.further_terms().save();
         return integrator.state().u;
       }
 
@@ -163,6 +167,7 @@ namespace NMM
         result.contact_update     = ContactUpdate::every_step;
         result.is_accounted       = false;
         result.newton = motion_newton_parameters(input.scene, input.progress);
+        result.further_terms = SceneBolts::makers(input.scene);
         return result;
       }
     } // namespace

@@ -48,6 +48,8 @@ namespace NMM
       unsigned int n_steps = 0, n_iterations = 0;
       /// InelasticTerms::internal_state(); empty if all materials are elastic.
       std::vector<char> material_state;
+      /// FurtherTerms::save() of bolts.
+      std::vector<char> term_state;
     };
 
 

@@ -49,6 +49,13 @@ namespace
     {C::initial_stress, {{}, {"Materials/rock/Initial stress=1, 0, 0"}}},
     {C::in_situ_stress,
      {{}, {"In-situ stress/Type=K0", "Model/Gravity=0, -9.81"}}},
+    {C::bolts,
+     {{},
+      {"Bolts/Names=bar",
+       "Bolts/bar/Path=LINESTRING (0.1 0.9, 0.4 0.6)",
+       "Bolts/bar/Young's modulus=1",
+       "Bolts/bar/Area=1",
+       "Bolts/bar/Bond stiffness=1"}}},
     {C::contact,
      {{}, {"Contact/Enforcement=penalty", "Contact/Friction angle=30"}}},
     {C::augmented_lagrangian,
@@ -135,7 +142,7 @@ namespace
       add_if(!has(C::dynamics), C::scheme_without_dashpots);
       add_if(has(C::statics) && !has(C::finite_kinematics) &&
                !has(C::contact) && !has(C::yielding) && !has(C::stages) &&
-               !has(C::growth),
+               !has(C::bolts) && !has(C::growth),
              C::one_state);
       return result;
     }

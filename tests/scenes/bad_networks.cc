@@ -175,6 +175,39 @@ namespace
   }
 
 
+  TEST(BadInput, Bolts)
+  {
+    using Arguments       = std::vector<std::string>;
+    const Arguments steel = {"Bolts/Names=anchor",
+                             "Bolts/anchor/Young's modulus=2e11",
+                             "Bolts/anchor/Area=1e-4",
+                             "Bolts/anchor/Bond stiffness=1e7"};
+    const Arguments bolt  = steel + Arguments{
+                                     "Bolts/anchor/Path=LINESTRING ("
+                                      "0.1 0.1, 0.1 0.4)"};
+    expect_rejected_with(
+      steel, "Bolts/anchor/Path=", {"'anchor'", "no path", "LINESTRING"});
+    expect_rejected_with(steel,
+                         "Bolts/anchor/Path=LINESTRING (0.1 0.1, 0.1 -7)",
+                         {"'anchor'", "ends outside the rock", "-7"});
+    expect_rejected_with(steel,
+                         "Bolts/anchor/Path=LINESTRING (0.1 -7, 0.1 0.1)",
+                         {"'anchor'", "begins outside the rock"});
+    expect_rejected_with(bolt,
+                         "Bolts/anchor/Area=0",
+                         {"'anchor'", "area", "above 0"});
+    expect_rejected_with(bolt,
+                         "Bolts/anchor/Pretension=1e3",
+                         {"'anchor'", "Faceplate", "press"});
+    expect_rejected_with(bolt,
+                         "Bolts/anchor/Type=end-anchored",
+                         {"'anchor'", "no effect", "grouted"});
+    expect_rejected_with(bolt + Arguments{"Stages/Names=one"},
+                         "Stages/one/Install=nail",
+                         {"'nail'", "Stages/one/Install", "Bolts"});
+  }
+
+
   TEST(BadInput, Regions)
   {
     const auto rejects = [](const std::string              &entry,

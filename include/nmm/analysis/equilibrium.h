@@ -18,7 +18,7 @@ namespace NMM
     Kinematics kinematics = Kinematics::small;
     /// Amplitudes that loads and prescribed displacements have at the load factor 1; empty: all 1.
     LoadAmplitudes full;
-    /// Newton's method. With contact or materials that yield, values that are left at their defaults
+    /// Newton's method. With contact, materials that yield or further terms, values that are left at their defaults
     /// are those of ContactStatics.
     NewtonParameters newton;
     /// Force terms beside solid and contact.

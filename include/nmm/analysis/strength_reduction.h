@@ -41,6 +41,8 @@ namespace NMM
       ContactHistory contact;
       /// InelasticTerms::internal_state(); empty if all materials are elastic.
       std::vector<char> materials;
+      /// FurtherTerms::save().
+      std::vector<char> terms;
     };
 
     /// The end of a trial.

@@ -104,6 +104,25 @@ namespace NMM
     /// Crack faces that have grown during the analysis, drawn in a stronger line.
     std::vector<Polyline> grown_faces;
 
+    /// A part of a bolt, drawn in a line whose width shows its force.
+    struct BoltLine
+    {
+      /// The line.
+      Polyline line;
+      /// Axial force over the largest one of all bolts, of either sign [-].
+      double share = 0.;
+
+      /// Writes or reads the line.
+      template <typename Archive>
+      void
+      serialize(Archive &archive, unsigned int)
+      {
+        archive &line &share;
+      }
+    };
+    /// Bolts and anchors.
+    std::vector<BoltLine> bolts;
+
     /// Values of another quantity at the vertices of the triangles.
     struct Layer
     {
@@ -132,7 +151,7 @@ namespace NMM
     serialize(Archive &archive, unsigned int)
     {
       archive &triangles &outlines &interfaces &mesh_lines &obstacles &contacts
-        &tips &grown_faces &layers &deformation_scale;
+        &tips &grown_faces &bolts &layers &deformation_scale;
     }
   };
 

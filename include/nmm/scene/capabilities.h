@@ -28,6 +28,7 @@ namespace NMM
     no_strength,
     initial_stress,
     in_situ_stress,
+    bolts,
     // Contact
     contact,
     no_contact,

@@ -9,6 +9,7 @@
 #include <nmm/mechanics/nonlinear_statics.h>
 #include <nmm/mechanics/static_elasticity.h>
 #include <nmm/output/probes.h>
+#include <nmm/scene/scene_parameters_bolts.h>
 #include <nmm/scene/scene_parameters_contact.h>
 #include <nmm/scene/scene_parameters_covers.h>
 #include <nmm/scene/scene_parameters_dynamics.h>
@@ -337,6 +338,8 @@ namespace NMM
     std::vector<std::string> point_forces;
     /// Names in `Fixed points`.
     std::vector<std::string> fixed_points;
+    /// Names in `Bolts`.
+    std::vector<std::string> bolts;
     /// Names of the laws in `Contact`.
     std::vector<std::string> contact_laws;
     /// Names in `Obstacles`.
@@ -394,6 +397,8 @@ namespace NMM
     std::vector<PointForceParameters> point_forces;
     /// The subsections of `Fixed points`.
     std::vector<FixedPointParameters> fixed_points;
+    /// The subsections of `Bolts`.
+    std::vector<BoltParameters> bolts;
     /// The section `Contact`.
     ContactSectionParameters contact;
     /// The subsections of `Obstacles`.
@@ -445,8 +450,8 @@ namespace NMM
     bool
     has_inelastic_material() const;
 
-    /// Whether the problem is nonlinear even for small displacements: with contact, or with a
-    /// material that yields.
+    /// Whether the problem is nonlinear even for small displacements: with contact, bolts or stages,
+    /// or with a material that yields.
     bool
     is_nonlinear() const;
 
@@ -467,6 +472,8 @@ namespace NMM
     check_safety_factor() const;
     void
     check_stages() const;
+    void
+    check_bolts() const;
     void
     check_output_quantities() const;
     void

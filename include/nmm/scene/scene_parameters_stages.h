@@ -18,6 +18,8 @@ namespace NMM
     std::string name;
     /// Names of the regions that are removed at the beginning of the stage.
     std::vector<std::string> removed_regions;
+    /// Names of the bolts that are installed at the beginning of the stage.
+    std::vector<std::string> installed;
     /// Share of the tractions on the walls of all regions removed so far that is released at the end
     /// of the stage [-].
     double relaxation = 1.;

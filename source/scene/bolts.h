@@ -1,6 +1,7 @@
 #ifndef nmm_source_scene_bolts_h
 #define nmm_source_scene_bolts_h
 
+#include <nmm/analysis/further_terms.h>
 #include <nmm/mechanics/bolt_term.h>
 #include <nmm/output/output_directory.h>
 #include <nmm/output/picture_data.h>

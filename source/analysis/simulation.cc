@@ -85,6 +85,8 @@ namespace NMM
   void
   Simulation::Data::store()
   {
+    if (!rest && !motion)
+      return;
     InelasticTerms *terms = nullptr;
     u.reinit(solid.covers().locally_owned_dofs(2),
              solid.covers().communicator());
@@ -97,7 +99,7 @@ namespace NMM
       terms         = rest->solid_term().inelastic_terms();
       of_terms      = rest->further_terms().save();
     }
-    else if (motion)
+    else
     {
       u        = motion->integrator().state().u;
       v        = motion->integrator().state().v;
@@ -106,8 +108,6 @@ namespace NMM
       if (contact)
         friction_work = motion->contact_account()->friction_work();
     }
-    else
-      return;
     materials =
       terms != nullptr ? terms->internal_state() : std::vector<char>();
     if (contact)
@@ -129,6 +129,8 @@ namespace NMM
                            "ones, have moved",
                            "Simulation::equilibrate()",
                            "use Simulation::relax()"));
+    if (contact)
+      contact->hold_obstacles(false);
     EquilibriumParameters how;
     how.kinematics    = given.kinematics;
     how.newton        = given.newton;

@@ -176,14 +176,25 @@ namespace
     given.contact->choices.use = ContactUse::relaxation;
     Simulation           simulation(block, given);
     RelaxationParameters trial;
-    trial.step                = 0.01;
-    trial.tolerance           = 1e-6;
-    trial.max_displacement    = 0.01;
-    const SafetyFactor factor = simulation.find_safety_factor(trial);
-    EXPECT_GT(strong / std::tan(slope), factor.stands_at * (1. - 2e-3));
-    EXPECT_LT(strong / std::tan(slope), factor.moves_at * (1. + 2e-3));
+    trial.step               = 0.01;
+    trial.tolerance          = 1e-6;
+    trial.max_displacement   = 0.01;
+    const auto expect_factor = [&]() {
+      const SafetyFactor factor = simulation.find_safety_factor(trial);
+      EXPECT_GT(strong / std::tan(slope), factor.stands_at * (1. - 2e-3));
+      EXPECT_LT(strong / std::tan(slope), factor.moves_at * (1. + 2e-3));
+    };
+    expect_factor();
     // what the trials did is forgotten
     EXPECT_EQ(simulation.displacement().linfty_norm(), 0.);
+
+    // The same from the state of rest, as often as one likes.
+    simulation.equilibrate(LoadSteps::equal(2));
+    const Simulation::Vector rest = simulation.displacement();
+    EXPECT_GT(rest.linfty_norm(), 0.);
+    expect_factor();
+    expect_factor();
+    EXPECT_EQ(difference(rest, simulation.displacement()), 0.);
   }
 
 

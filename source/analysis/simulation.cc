@@ -72,6 +72,10 @@ namespace NMM
     void
     begin_rest();
 
+    /// @throws InputError if a part of the forces on removed blocks is held.
+    void
+    check_that_nothing_is_held() const;
+
     /// Begins a motion, or a relaxation with the loads of t = 0.
     void
     begin_motion(bool is_relaxation);
@@ -181,7 +185,7 @@ namespace NMM
 
 
   void
-  Simulation::Data::begin_motion(const bool is_relaxation)
+  Simulation::Data::check_that_nothing_is_held() const
   {
     AssertThrow(!holds_forces,
                 InputError("a part of the forces on removed blocks is still "
@@ -189,6 +193,13 @@ namespace NMM
                            "Simulation::apply()",
                            "release all of them before, by a stage with "
                            "StageChange::released = 1 and equilibrate()"));
+  }
+
+
+  void
+  Simulation::Data::begin_motion(const bool is_relaxation)
+  {
+    check_that_nothing_is_held();
     store();
     if (contact)
       contact->hold_obstacles(is_relaxation);
@@ -302,7 +313,7 @@ namespace NMM
   Simulation::find_safety_factor(const RelaxationParameters   &trial,
                                  const SafetyFactorParameters &search)
   {
-    const Vector present = displacement();
+    data->check_that_nothing_is_held();
     data->store();
     StrengthReductionParameters parameters;
     parameters.search = search;
@@ -313,8 +324,11 @@ namespace NMM
                                 parameters,
                                 data->contact.get());
     if (data->phase != Phase::undeformed)
-      reduction.start_from(
-        {data->u, data->history, data->materials, data->of_terms});
+      reduction.start_from({data->u,
+                            data->history,
+                            data->materials,
+                            data->of_terms,
+                            data->removed_blocks});
     const SafetyFactor result = reduction.find();
     if (data->contact)
       data->contact->begin_anew();

@@ -58,6 +58,8 @@ namespace NMM
         terms->restore_internal_state(begin.materials);
       equations.further_terms().restore(begin.terms);
       integrator.initialize(begin.displacement, equations.zero());
+      if (!begin.removed_blocks.empty())
+        integrator.drop_blocks(begin.removed_blocks);
     }
     StrengthTrial trial = try_to_stand(integrator,
                                        parameters.trial,

@@ -43,6 +43,8 @@ namespace NMM
       std::vector<char> materials;
       /// FurtherTerms::save().
       std::vector<char> terms;
+      /// Blocks that are gone.
+      std::vector<unsigned int> removed_blocks = {};
     };
 
     /// The end of a trial.

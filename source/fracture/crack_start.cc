@@ -126,11 +126,11 @@ namespace NMM
 
       /// The best point of each edge at which a crack may start.
       std::vector<Candidate>
-      candidates(const std::pair<unsigned int, unsigned int> &elements) const
+      candidates() const
       {
         const internal::CurveConditions conditions(mesh, problem);
         std::vector<Candidate>          found;
-        for (unsigned int e = elements.first; e < elements.second; ++e)
+        for (unsigned int e = 0; e < mesh.n_elements(); ++e)
         {
           if (mesh.n_edges(e) == 0 || material(e).fracture_strength <= 0.)
             continue;
@@ -337,8 +337,7 @@ namespace NMM
     // The first estimate may be this much too low beside the largest one.
     constexpr double       most_underestimate = 0.6, least_drive = 0.8;
     const StartSearch      search(covers, problem, stress);
-    std::vector<Candidate> candidates =
-      search.candidates(covers.locally_owned_elements());
+    std::vector<Candidate> candidates = search.candidates();
     candidates.erase(std::remove_if(candidates.begin(),
                                     candidates.end(),
                                     [&](const Candidate &candidate) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mechanics/nodal_values.h>
 
 namespace NMM
 {
@@ -46,57 +47,54 @@ namespace NMM
                                const QuadratureCollection &rules)
     : from(&from)
     , to(&to)
-    , origins(to.n_covers())
   {
-    Assert(dealii::Utilities::MPI::n_mpi_processes(to.communicator()) == 1,
-           dealii::ExcMessage("Covers are carried over on one rank only."));
     const ManifoldMesh     &mesh         = to.manifold_mesh();
     const ManifoldMesh     &former_mesh  = from.manifold_mesh();
     const MathematicalMesh &former_cells = former_mesh.mathematical_mesh();
-    former_blocks.assign(mesh.physical_mesh().n_blocks(), invalid_index);
-    struct Rank
-    {
-      double outside = 0., area = -1.;
-    };
-    std::vector<Rank>   best(to.n_covers());
-    std::vector<double> largest(former_blocks.size(), -1.);
-    const auto          propose = [&](const unsigned int cover,
+    std::vector<Proposal>   best(to.n_covers()),
+      of_blocks(mesh.physical_mesh().n_blocks());
+    const auto propose = [&](const unsigned int cover,
                              const unsigned int former,
                              const double       area) {
       const Point<2> xi =
         former_cells.real_to_reference(former_mesh.cell(former),
                                        to.node(cover));
-      // Interpolation is better than extrapolation, and large elements are located best.
-      const Rank rank{distance_outside(xi), area};
-      Rank      &other = best[cover];
-      if (other.area >= 0. &&
-          (rank.outside > other.outside ||
-           (rank.outside == other.outside && rank.area <= other.area)))
+      Proposal proposal{distance_outside(xi), area, {former, {}}};
+      if (!proposal.is_better_than(best[cover]))
         return;
-      other                  = rank;
-      origins[cover].element = former;
       WeightFunctions::values(former_cells.degree(),
                               xi,
-                              origins[cover].weights);
-      remove_rounding(former_cells.n_covers_per_cell(), origins[cover].weights);
+                              proposal.origin.weights);
+      remove_rounding(former_cells.n_covers_per_cell(),
+                      proposal.origin.weights);
+      best[cover] = proposal;
     };
-    for (unsigned int element = 0; element < mesh.n_elements(); ++element)
+    // Of equal proposals the first one is taken, on any number of ranks: ranks own ascending elements.
+    const auto take_best = [&](std::vector<Proposal> &proposals) {
+      const auto all =
+        dealii::Utilities::MPI::all_gather(to.communicator(), proposals);
+      proposals = all.front();
+      for (const std::vector<Proposal> &of_rank : all)
+        for (unsigned int i = 0; i < proposals.size(); ++i)
+          if (of_rank[i].is_better_than(proposals[i]))
+            proposals[i] = of_rank[i];
+    };
+    const auto [first, last] = to.locally_owned_elements();
+    for (unsigned int element = first; element < last; ++element)
     {
       const unsigned int former = find_former(element, rules.rule(element));
       if (former == invalid_index)
         continue;
-      const double       area  = mesh.area(element);
-      const unsigned int block = mesh.block(element);
-      if (area > largest[block])
-      {
-        largest[block]       = area;
-        former_blocks[block] = former_mesh.block(former);
-      }
+      const double   area = mesh.area(element);
+      const Proposal block{0., area, {former_mesh.block(former), {}}};
+      if (block.is_better_than(of_blocks[mesh.block(element)]))
+        of_blocks[mesh.block(element)] = block;
       for (const unsigned int cover : to.covers(element))
         propose(cover, former, area);
     }
+    take_best(best);
     // Where cells have become larger, another part of an element may be nearer to the node.
-    for (unsigned int element = 0; element < mesh.n_elements(); ++element)
+    for (unsigned int element = first; element < last; ++element)
     {
       const auto covers = to.covers(element);
       if (std::all_of(covers.begin(), covers.end(), [&](const unsigned int c) {
@@ -112,12 +110,27 @@ namespace NMM
             propose(cover, former, mesh.area(element));
       }
     }
-    for (unsigned int cover = 0; cover < origins.size(); ++cover)
+    take_best(best);
+    take_best(of_blocks);
+    for (const Proposal &block : of_blocks)
+      former_blocks.push_back(block.origin.element);
+    for (unsigned int cover = 0; cover < best.size(); ++cover)
+    {
+      origins.push_back(best[cover].origin);
       AssertThrow(origins[cover].element != invalid_index,
                   NumericalFailure("A part of the solid was not found in the "
                                    "solid before a crack grew",
                                    "near " + to_string(to.node(cover)),
                                    "choose another 'Fracture/Increment'"));
+    }
+  }
+
+
+  bool
+  CarriedCovers::Proposal::is_better_than(const Proposal &other) const
+  {
+    return area >= 0. && (other.area < 0. || outside < other.outside ||
+                          (outside == other.outside && area > other.area));
   }
 
 
@@ -157,8 +170,11 @@ namespace NMM
   CarriedCovers::Vector
   CarriedCovers::carry(const Vector &values) const
   {
+    const std::vector<double> former_values =
+      internal::of_all_ranks(std::vector<double>(values.begin(), values.end()),
+                             from->communicator());
     Vector result(to->locally_owned_dofs(2), to->communicator());
-    for (unsigned int cover = 0; cover < origins.size(); ++cover)
+    for (const auto cover : to->locally_owned_covers())
     {
       const Origin &origin = origins[cover];
       const auto    former = from->covers(origin.element);
@@ -167,7 +183,7 @@ namespace NMM
         double sum = 0.;
         for (unsigned int i = 0; i < former.size(); ++i)
           if (origin.weights[i] != 0.)
-            sum += origin.weights[i] * values(unknown_of(former[i], c));
+            sum += origin.weights[i] * former_values[unknown_of(former[i], c)];
         result(unknown_of(cover, c)) = sum;
       }
     }

@@ -32,6 +32,18 @@ namespace NMM
   }
 
 
+  DisplacementField
+  DisplacementField::on_all_ranks() const
+  {
+    std::vector<dealii::Tensor<1, 2>> own;
+    for (const auto cover : covers->locally_owned_covers())
+      own.push_back(nodal_values[cover]);
+    DisplacementField result(*this);
+    result.nodal_values = internal::of_all_ranks(own, covers->communicator());
+    return result;
+  }
+
+
   dealii::Tensor<1, 2>
   DisplacementField::unknown_value()
   {

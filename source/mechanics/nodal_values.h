@@ -3,6 +3,7 @@
 
 #include <nmm/covers/cover_system.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <linear_algebra/chosen_items.h>
@@ -12,6 +13,19 @@ namespace NMM
 {
   namespace internal
   {
+    /// The items of all ranks, one rank after the other, on each rank. Collective.
+    template <typename Item>
+    std::vector<Item>
+    of_all_ranks(const std::vector<Item> &own, const MPI_Comm communicator)
+    {
+      std::vector<Item> all;
+      for (const auto &part :
+           dealii::Utilities::MPI::all_gather(communicator, own))
+        all.insert(all.end(), part.begin(), part.end());
+      return all;
+    }
+
+
     /// Copy the locally relevant values of @p vector into an array with the displacement of each cover
     /// [m]. Entries of covers that are not relevant remain unchanged.
     inline void

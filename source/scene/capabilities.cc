@@ -361,7 +361,6 @@ namespace NMM
     const std::vector<Capability> at_rest       = {C::statics,
                                                    C::relaxation,
                                                    C::safety_factor},
-                                  in_motion     = {C::dynamics, C::relaxation},
                                   not_static    = {C::dynamics,
                                                    C::relaxation,
                                                    C::safety_factor},
@@ -462,10 +461,6 @@ namespace NMM
        "it has not been built: the blocks in motion are solved for apart from "
        "those that rest on one rank only",
        one_rank},
-      {{{C::sleep}, {C::growth}},
-       "it has not been built: which blocks rest is not carried over to the "
-       "solid that is cut again",
-       "remove 'Time/Sleep speed' or 'Fracture/Increments'"},
       {{{C::intensity_factors}, {C::safety_factor}},
        "it has not been built: what is reduced is the strength of contact and "
        "of materials that yield, and not the toughness",
@@ -491,18 +486,6 @@ namespace NMM
        "it has not been built: what bolts remember is not carried over to the "
        "solid that is cut again",
        "remove one of the two"},
-      {{{C::crack_starts}, {C::several_ranks}},
-       "it has not been built: each rank knows the stress at its own part of "
-       "the boundary only",
-       "run the scene on one rank only, or set it to 0"},
-      {{{C::growth}, in_motion, {C::several_ranks}},
-       "it has not been built: displacements and velocities are carried over "
-       "to the solid that is cut again on one rank",
-       one_rank},
-      {{{C::growth}, {C::contact, C::finite_kinematics}, {C::several_ranks}},
-       "it has not been built: displacements and friction are carried over to "
-       "the solid that is cut again on one rank",
-       one_rank},
       {{{C::stages}, not_static},
        "it has not been built: stages are load steps",
        "set 'Model/Analysis = static'"},

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <dynamics/checkpoint_file.h>
 #include <limits>
+#include <mechanics/nodal_values.h>
 #include <mechanics/solid_hash.h>
 #include <scene/crack_growth_analysis.h>
 #include <scene/current_stress.h>
@@ -55,11 +56,11 @@ namespace NMM
                    earlier_path->history,
                    earlier_path->friction_work};
         require_in_checkpoint(earlier_path->displacement.size() ==
-                                carried.displacement.locally_owned_size(),
+                                carried.displacement.size(),
                               "it has another number of unknowns");
-        std::copy(earlier_path->displacement.begin(),
-                  earlier_path->displacement.end(),
-                  carried.displacement.begin());
+        for (const auto i : carried.displacement.locally_owned_elements())
+          carried.displacement(i) = earlier_path->displacement[i];
+        carried.displacement.compress(dealii::VectorOperation::insert);
       }
       load_path->continue_from(carried);
     }
@@ -222,15 +223,17 @@ namespace NMM
     {
       if (scene.parameters().output.checkpoint_every == 0)
         return;
-      const SavedPath path{increments.increments(),
-                           states,
-                           n_unturned,
-                           state_fingerprint,
-                           carried.load_factor,
-                           carried.friction_work,
-                           {carried.displacement.begin(),
-                            carried.displacement.end()},
-                           carried.history};
+      const SavedPath path{
+        increments.increments(),
+        states,
+        n_unturned,
+        state_fingerprint,
+        carried.load_factor,
+        carried.friction_work,
+        of_all_ranks(std::vector<double>(carried.displacement.begin(),
+                                         carried.displacement.end()),
+                     communicator),
+        carried.history};
       CheckpointFile{kind_of_checkpoint, to_bytes(path), {}}.write(
         checkpoint_file(), communicator);
     }
@@ -331,14 +334,14 @@ namespace NMM
           parameters,
           problem,
           solid->covers(),
-          load_path
-            ? CurrentStress::in_material_axes(
-                *field,
-                load_path->equations().solid_term().elasticity(),
-                scene.parameters().model.kinematics)
-            : [this](const unsigned int element, const dealii::Point<2> &xi) {
-                return field->stress(element, xi);
-              });
+          load_path ? CurrentStress::in_material_axes(
+                        field->on_all_ranks(),
+                        load_path->equations().solid_term().elasticity(),
+                        scene.parameters().model.kinematics)
+                    : [u = field->on_all_ranks()](const unsigned int element,
+                                                  const dealii::Point<2> &xi) {
+                        return u.stress(element, xi);
+                      });
       double most_driven = 0.;
       for (const GrowingTip &tip : growing_tips)
         most_driven = std::max(most_driven, tip.drive);

@@ -30,7 +30,6 @@ namespace NMM
      * displacements and the history of contact are carried over, and the load continues from the load factor of the
      * shorter crack, upwards or downwards. Slip that locks or reverses while the crack grows is a
      * part of the path therefore.
-     * Limits: with contact one rank.
      */
     class CrackGrowthAnalysis : public StaticAnalysis
     {

@@ -174,6 +174,8 @@ namespace NMM
       DynamicState        state = former.state;
       for (Vector *vector : {&state.u, &state.v, &state.a})
         *vector = carried.carry(*vector);
+      // The waves of a crack that grows wake all blocks.
+      state.rest.clear();
       state.left_blocks.clear();
       const std::vector<unsigned int> &left = former.state.left_blocks;
       for (unsigned int block = 0; block < physical_mesh->n_blocks(); ++block)

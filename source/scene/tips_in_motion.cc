@@ -44,7 +44,8 @@ namespace NMM
     DynamicAnalysis::stress_in_material_axes() const
     {
       return CurrentStress::in_material_axes(
-        DisplacementField(solid->covers(), problem, displacement()),
+        DisplacementField(solid->covers(), problem, displacement())
+          .on_all_ranks(),
         motion->solid_term().elasticity(),
         scene.parameters().model.kinematics);
     }

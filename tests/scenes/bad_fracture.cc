@@ -80,10 +80,6 @@ namespace
                                          "Time/End time=1",
                                          "Time/Initial step=0.1",
                                          "Materials/rock/Density=1"};
-    expect_rejected_with(
-      moving + std::vector<std::string>{"Contact/Enforcement=penalty"},
-      "Time/Sleep speed=0.01",
-      {"sleeping blocks", "Sleep speed", "Increments"});
     rejects("Fracture/Speed=100", {"Speed", "Model/Analysis = dynamic"});
     expect_rejected_with(cracked,
                          "Fracture/Speed=100",
@@ -106,24 +102,6 @@ namespace
     expect_rejected_with(cracked,
                          "Fracture/Criterion=local symmetry",
                          {"'Criterion'", "Increments"});
-  }
-
-
-  // Only one rank can find cracks that start, or carry contact over to a longer crack.
-  TEST(BadInput, CracksThatGrowOnTwoRanksMPI)
-  {
-    if (n_ranks() != 2)
-      GTEST_SKIP() << "on 2 ranks";
-    const std::vector<std::string> growing =
-      cracked + std::vector<std::string>{"Fracture/Increments=2",
-                                         "Fracture/Increment=0.1",
-                                         "Materials/rock/Toughness=1"};
-    expect_rejected_with(growing,
-                         "Contact/Enforcement=penalty",
-                         {"contact", "one rank only"});
-    expect_rejected_with(growing,
-                         "Materials/rock/Fracture strength=1",
-                         {"start", "one rank only"});
   }
 
 

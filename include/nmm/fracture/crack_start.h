@@ -61,7 +61,10 @@ namespace NMM
    * one with the largest drive is returned, and none with less than 0.8 of the largest drive, nor
    * within this distance of the places @p taken.
    *
-   * Limits: one rank; joints, interfaces and sides that two domains share are no places to start
+   * On several ranks each finds all places, and @p stress has to know all elements on each of them, as
+   * that of DisplacementField::on_all_ranks() does.
+   *
+   * Limits: joints, interfaces and sides that two domains share are no places to start
    * from, unless they end at a boundary. Lines of less than a cell see the stress of a single
    * cell; in the corner of a notch this needs cells that are smaller than L.
    */

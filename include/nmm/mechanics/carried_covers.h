@@ -29,7 +29,9 @@ namespace NMM
    * Functions that are carried over need not satisfy the constraints of covers that are aggregated
    * only after the cut; TimeIntegrator::continue_after_cut() sees to these.
    *
-   * Limits: one rank; both solids have the same curves but for those that the cut adds.
+   * On several ranks each one looks at its own elements, and the best of all proposals is taken.
+   *
+   * Limits: both solids have the same curves but for those that the cut adds.
    * Source: derived here from the definition of covers, eq. (5).
    */
   class CarriedCovers
@@ -40,15 +42,15 @@ namespace NMM
 
     /**
      * Find for each cover of @p to the element of @p from that its value comes from. @p rules are
-     * rules on the elements of @p to, whose points locate these. Both cover systems must outlive
-     * this object.
+     * rules on the elements of @p to that this rank owns, whose points locate these. Both cover
+     * systems must outlive this object. Collective.
      * @throws NumericalFailure for a cover of which no element lies in the solid before the cut.
      */
     CarriedCovers(const CoverSystem          &from,
                   const CoverSystem          &to,
                   const QuadratureCollection &rules);
 
-    /// The function @p values of the solid before the cut, as one of the solid after it.
+    /// The function @p values of the solid before the cut, as one of the solid after it. Collective.
     Vector
     carry(const Vector &values) const;
 
@@ -61,8 +63,30 @@ namespace NMM
     /// former element.
     struct Origin
     {
-      unsigned int element = invalid_index;
-      double       weights[6];
+      unsigned int element    = invalid_index;
+      double       weights[6] = {};
+    };
+
+    /// A former element from which a cover may take its value.
+    struct Proposal
+    {
+      /// How far the node lies outside of the former cell, as a share of it; 0 inside.
+      double outside = 0.;
+      /// Area of the element after the cut [m^2]; negative if there is none.
+      double area = -1.;
+      Origin origin;
+
+      /// Interpolation is better than extrapolation, and large elements are located best.
+      bool
+      is_better_than(const Proposal &other) const;
+
+      /// For the exchange between ranks.
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int /* version */)
+      {
+        archive &outside &area &origin.element &origin.weights;
+      }
     };
 
     const CoverSystem        *from, *to;

@@ -33,6 +33,10 @@ namespace NMM
                       const ElasticityProblem          &problem,
                       std::vector<dealii::Tensor<1, 2>> nodal_values);
 
+    /// The same field on each rank, with the values of all covers. Collective.
+    DisplacementField
+    on_all_ranks() const;
+
     /// Add the functions of a disk cover, which must outlive this object.
     void
     add_disk(const DiskCover &disk, const dealii::Vector<double> &coefficients);

@@ -27,7 +27,7 @@ namespace NMM
       std::string text = "interface name=path ";
       for (const char c : paths)
         text +=
-          c == ';' ? std::string("; interface name=path ") : std::string(1, c);
+          c == ';' ? std::string("\ninterface name=path ") : std::string(1, c);
       return text;
     }
   } // namespace

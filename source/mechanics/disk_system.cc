@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>

@@ -192,9 +192,9 @@ namespace NMM
     {
       const unsigned int n      = all_elements.size();
       Response          &result = trial.response;
-      trial.gradient.assign(2 * n + 1, 0.);
+      trial.gradient.assign(n_nodes(), 0.);
       for (auto &band : trial.matrix)
-        band.assign(2 * n + 1, 0.);
+        band.assign(n_nodes(), 0.);
       trial.branches.clear();
       trial.gradient[0] += head_load;
       result.forces.assign(all_sites.size(), 0.);
@@ -211,9 +211,10 @@ namespace NMM
                            const double                 tangent) {
         for (unsigned int a = 0; a < 3; ++a)
         {
-          trial.gradient[2 * e + a] += by_node[a] * force;
+          trial.gradient[node(e, a)] += by_node[a] * force;
           for (unsigned int b = 0; b <= a; ++b)
-            trial.matrix[a - b][2 * e + a] += tangent * by_node[a] * by_node[b];
+            trial.matrix[a - b][node(e, a)] +=
+              tangent * by_node[a] * by_node[b];
         }
       };
       for (unsigned int e = 0; e < n; ++e)
@@ -226,22 +227,22 @@ namespace NMM
           for (unsigned int a = 0; a < 3; ++a)
           {
             B[a] /= h;
-            strain += B[a] * trial.v[2 * e + a];
+            strain += B[a] * trial.v[node(e, a)];
           }
-          const unsigned int point     = 2 * e + q;
+          const unsigned int here      = point(e, q);
           const bool         is_broken = state.is_broken[e] != 0;
           const double       stiffness =
             section.stiffness * (is_broken ? rest_of_broken : 1.);
           const Yielding now = yield(strain,
-                                     is_broken ? 0. : state.strain[point],
+                                     is_broken ? 0. : state.strain[here],
                                      stiffness,
                                      may_yield ? section.yield_force : no_limit,
                                      all_elements[e].hardening);
           add(e, B, 0.5 * h * now.force, 0.5 * h * now.tangent);
           trial.branches.push_back(now.yields);
           result.energy += 0.5 * h * now.stored;
-          result.axial[point]       = now.force;
-          result.next.strain[point] = is_broken ? 0. : now.plastic;
+          result.axial[here]       = now.force;
+          result.next.strain[here] = is_broken ? 0. : now.plastic;
         }
       }
       for (unsigned int i = 0; i < all_sites.size(); ++i)
@@ -253,7 +254,7 @@ namespace NMM
           continue;
         double slip = -r[i];
         for (unsigned int a = 0; a < 3; ++a)
-          slip += site.shape[a] * trial.v[2 * site.element + a];
+          slip += site.shape[a] * trial.v[node(site.element, a)];
         if (is_head)
           slip -= state.head_offset;
         const double   weight = is_tie ? 1. : site.weight;
@@ -273,8 +274,8 @@ namespace NMM
     }
 
 
-    /// Newton's method from the elastic solution. The energy is convex, so that its slope along a step
-    /// ascends; where it rises at the end of the step, a zero of the slope is sought.
+    /// Newton's method from the elastic solution. The energy is convex, so that its slope along a
+    /// step ascends; where it rises at the end of the step, a zero of the slope is sought.
     BoltBar::Trial
     BoltBar::minimize(const State               &state,
                       const std::vector<double> &r,
@@ -283,9 +284,9 @@ namespace NMM
     {
       constexpr unsigned int max_iterations = 200, max_searches = 40;
       constexpr double       sufficient = 0.5, small = 1e-20;
-      const unsigned int     n_nodes = 2 * all_elements.size() + 1;
+      const unsigned int     n_all = n_nodes();
       Trial                  trial;
-      trial.v.assign(n_nodes, 0.);
+      trial.v.assign(n_all, 0.);
       assemble(state, r, is_absent, head_load, /* may_yield = */ false, trial);
       const auto slope_along = [&](const Trial               &at,
                                    const std::vector<double> &step) {
@@ -307,7 +308,7 @@ namespace NMM
         Trial        next;
         const auto   try_length = [&](const double length) {
           next.v = trial.v;
-          for (unsigned int i = 0; i < n_nodes; ++i)
+          for (unsigned int i = 0; i < n_all; ++i)
             next.v[i] += length * step[i];
           assemble(
             state, r, is_absent, head_load, /* may_yield = */ true, next);
@@ -405,7 +406,7 @@ namespace NMM
             const double factor =
               response.stiffnesses[i] * all_sites[i].shape[a];
             for (unsigned int c = 0; factor != 0. && c < rows.n(); ++c)
-              b(2 * all_sites[i].element + a, c) += factor * rows(i, c);
+              b(node(all_sites[i].element, a), c) += factor * rows(i, c);
           }
       };
       gather(left, b_left);
@@ -435,7 +436,7 @@ namespace NMM
         for (unsigned int q = 0; q < 2; ++q)
         {
           const auto   B     = slope(gauss_2[q]);
-          const double force = 0.5 * response.axial[2 * e + q];
+          const double force = 0.5 * response.axial[point(e, q)];
           at_begin[e] -= B[0] * force;
           at_end[e] += B[2] * force;
         }
@@ -469,8 +470,8 @@ namespace NMM
       for (unsigned int e = 0; e < all_elements.size(); ++e)
         for (unsigned int q = 0; q < 2; ++q)
           sum += 0.5 * (all_elements[e].end - all_elements[e].begin) *
-                 mean(&Response::axial, 2 * e + q) *
-                 (end.next.strain[2 * e + q] - before.strain[2 * e + q]);
+                 mean(&Response::axial, point(e, q)) *
+                 (end.next.strain[point(e, q)] - before.strain[point(e, q)]);
       for (unsigned int i = 0; i < all_sites.size(); ++i)
         sum -= mean(&Response::forces, i) * (end.next.slip[i] - before.slip[i]);
       return sum;
@@ -484,7 +485,7 @@ namespace NMM
       const double       length = all_elements.back().end,
                    gauge        = std::min(section.gauge_length, length);
       const auto strain         = [&](const unsigned int e) {
-        return (response.v[2 * e + 2] - response.v[2 * e]) /
+        return (response.v[node(e, 2)] - response.v[node(e, 0)]) /
                (all_elements[e].end - all_elements[e].begin);
       };
       // what lies beside a break keeps its strain without force
@@ -495,7 +496,7 @@ namespace NMM
       for (unsigned int e = 0; e < n; ++e)
       {
         const double pulled =
-          0.5 * (response.axial[2 * e] + response.axial[2 * e + 1]);
+          0.5 * (response.axial[point(e, 0)] + response.axial[point(e, 1)]);
         if (response.next.is_broken[e] != 0 || pulled < enough)
           continue;
         const double middle =

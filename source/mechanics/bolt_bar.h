@@ -11,8 +11,8 @@ namespace NMM
 {
   namespace internal
   {
-    /// Cross-section and bond of a bar. All forces are per unit thickness: those of one bolt over the
-    /// spacing.
+    /// Cross-section and bond of a bar. All forces are per unit thickness: those of one bolt over
+    /// the spacing.
     struct BarSection
     {
       /// E A [N/m].
@@ -35,13 +35,13 @@ namespace NMM
      * @f[ \Psi(v, r) = \int \psi_a(v')\,ds + \int \psi_b(v - r)\,ds
            + \sum_\mathrm{ties} \tfrac12\kappa (v - r - o)^2 \rightarrow \min_v, @f]
      * where N = psi_a' is EA (v' - e_p) up to the yield force, and the bond stress tau = psi_b' is
-     * k (v - r - w_p) up to the bond strength. e_p and w_p are the state of the step before (backward
-     * Euler). A millionth of each stiffness is left after yielding, so that the minimum is unique.
-     * Ties at head and toe have kappa = 1e6 EA / L. The offset o of the head is that with which it was
-     * fastened under pretension.
+     * k (v - r - w_p) up to the bond strength. e_p and w_p are the state of the step before
+     * (backward Euler). A millionth of each stiffness is left after yielding, so that the minimum
+     * is unique. Ties at head and toe have kappa = 1e6 EA / L. The offset o of the head is that
+     * with which it was fastened under pretension.
      *
-     * The bar has elements of second order, with two points of N and three of tau each. The energy is
-     * convex and piecewise quadratic: Newton's method with a line search ends at its minimum.
+     * The bar has elements of second order, with two points of N and three of tau each. The energy
+     * is convex and piecewise quadratic: Newton's method with a line search ends at its minimum.
      * The bar's own unknowns are condensed: forces f = dPsi/dr on the rock, and
      * @f[ \frac{df}{dr} = \Psi_{rr} - \Psi_{rv}\,\Psi_{vv}^{-1}\,\Psi_{vr}. @f]
      * Cost: O(elements) for the minimum, O(elements n^2) for the derivative by n unknowns.
@@ -113,6 +113,20 @@ namespace NMM
               bool                 head_is_tied,
               bool                 toe_is_tied);
 
+      /// Number of the node @p local of an element: 0 at its begin, 1 in the middle, 2 at its end.
+      static unsigned int
+      node(const unsigned int element, const unsigned int local)
+      {
+        return element + element + local;
+      }
+
+      /// Number of the point @p q of an element in which the axial force is taken, 0 or 1.
+      static unsigned int
+      point(const unsigned int element, const unsigned int q)
+      {
+        return element + element + q;
+      }
+
       /// The sites, from the head.
       const std::vector<Site> &
       sites() const
@@ -126,8 +140,8 @@ namespace NMM
         return all_elements;
       }
 
-      /// The state of a bar whose head was drawn out of rock at rest by @p pretension [N/m] and then
-      /// fastened. Without ties nothing is drawn.
+      /// The state of a bar whose head was drawn out of rock at rest by @p pretension [N/m] and
+      /// then fastened. Without ties nothing is drawn.
       State
       initial_state(double pretension) const;
 
@@ -158,8 +172,8 @@ namespace NMM
                  const Response *begin,
                  const Response &end) const;
 
-      /// The element that breaks, since the mean strain over the gauge length exceeds that of rupture;
-      /// the number of elements if none does.
+      /// The element that breaks, since the mean strain over the gauge length exceeds that of
+      /// rupture; the number of elements if none does.
       unsigned int
       find_rupture(const Response &response) const;
 
@@ -169,6 +183,12 @@ namespace NMM
 
     private:
       struct Trial;
+
+      unsigned int
+      n_nodes() const
+      {
+        return node(all_elements.size(), 1);
+      }
 
       void
       assemble(const State               &state,

@@ -1,6 +1,7 @@
 #include <nmm/base/exceptions.h>
 
 #include <algorithm>
+#include <cmath>
 #include <geometry/piece_geometry.h>
 #include <mechanics/bolt_path.h>
 
@@ -125,6 +126,48 @@ namespace NMM
                      to_string(is_head ? path.front() : path.back()),
                      "let its path begin and end in rock or on its surface"));
       return result;
+    }
+
+
+    std::vector<BoltBar::Element>
+    make_elements(const BoltStretch &stretch,
+                  const BarSection  &section,
+                  const bool         is_bonded,
+                  const bool         may_yield_first,
+                  const bool         may_yield_last)
+    {
+      constexpr double per_decay = 5., of_decay = 2e-4, at_most = 0.1;
+      constexpr double at_least = 4.;
+      const double     length   = stretch.end - stretch.begin,
+                   decay =
+                     std::sqrt(section.stiffness / section.bond_stiffness);
+      double n = at_least, tiny = 0.;
+      if (is_bonded)
+        n = std::max(n, per_decay * length / decay);
+      if (is_bonded && std::isfinite(section.yield_force))
+        tiny = std::min(of_decay * decay, at_most * length);
+      if (std::isfinite(section.rupture_strain))
+        n = std::max(n, length / section.gauge_length);
+      std::vector<double> ends  = {stretch.begin};
+      const double        first = stretch.begin + (may_yield_first ? tiny : 0.),
+                   last         = stretch.end - (may_yield_last ? tiny : 0.);
+      n                         = std::ceil(n);
+      for (unsigned int e = 0; e <= n; ++e)
+        if (const double s = first + e / n * (last - first); s > ends.back())
+          ends.push_back(s);
+      if (last < stretch.end)
+        ends.push_back(stretch.end);
+      std::vector<BoltBar::Element> elements;
+      for (unsigned int e = 0; e + 1 < ends.size(); ++e)
+      {
+        const double size = ends[e + 1] - ends[e];
+        elements.push_back(
+          {ends[e],
+           ends[e + 1],
+           is_bonded,
+           BoltBar::hardening * (size < 1.5 * tiny ? size / length : 1.)});
+      }
+      return elements;
     }
   } // namespace internal
 } // namespace NMM

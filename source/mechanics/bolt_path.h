@@ -3,6 +3,7 @@
 
 #include <nmm/covers/manifold_mesh.h>
 
+#include <mechanics/bolt_bar.h>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,8 @@ namespace NMM
     };
 
 
-    /// Cuts the path of a bolt at its corners, at curves where the displacement may jump, at the ends
-    /// of the rock, and at the arc lengths @p further [m].
+    /// Cuts the path of a bolt at its corners, at curves where the displacement may jump, at the
+    /// ends of the rock, and at the arc lengths @p further [m].
     /// @throws InputError that begins with @p what for a path without length, or whose ends are
     /// outside the rock.
     std::vector<BoltStretch>
@@ -38,6 +39,18 @@ namespace NMM
                   const std::vector<dealii::Point<2>> &path,
                   const std::vector<double>           &further,
                   const std::string                   &what);
+
+
+    /// Elements of a stretch. With a fifth of the length over which forces decay, the error of the
+    /// pull-out force is below 1e-4. A bar that may break has elements of its gauge length. A bonded
+    /// bar yields where the force is largest, in one point: at such an end there is a short element,
+    /// along which the force hardly changes.
+    std::vector<BoltBar::Element>
+    make_elements(const BoltStretch &stretch,
+                  const BarSection  &section,
+                  bool               is_bonded,
+                  bool               may_yield_first,
+                  bool               may_yield_last);
   } // namespace internal
 } // namespace NMM
 

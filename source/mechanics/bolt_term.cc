@@ -1,13 +1,86 @@
 #include <nmm/base/archive.h>
+#include <nmm/base/exceptions.h>
 #include <nmm/mechanics/bolt_term.h>
 
 #include <algorithm>
 #include <base/hash.h>
+#include <cmath>
 #include <mechanics/placed_bolt.h>
+#include <sstream>
 
 namespace NMM
 {
   using internal::PlacedBolt;
+
+  namespace
+  {
+    /// An error in a value of a bolt.
+    void
+    check_value(const Bolt        &bolt,
+                const bool         is_right,
+                const char        *what,
+                const double       value,
+                const std::string &remedy)
+    {
+      std::ostringstream text;
+      text << "the " << what << " is " << value;
+      AssertThrow(is_right,
+                  InputError(text.str(), "bolt '" + bolt.name + "'", remedy));
+    }
+
+
+    void
+    check_bolt(const Bolt &bolt)
+    {
+      const bool is_grouted = bolt.type == Bolt::Type::grouted;
+      const auto positive   = [&](const char *what, const double value) {
+        check_value(bolt,
+                    value > 0. && std::isfinite(value),
+                    what,
+                    value,
+                    "give a number above 0");
+      };
+      const auto limit = [&](const char *what, const double value) {
+        check_value(bolt, value > 0., what, value, "give a number above 0");
+      };
+      const auto not_negative = [&](const char *what, const double value) {
+        check_value(bolt,
+                    value >= 0. && std::isfinite(value),
+                    what,
+                    value,
+                    "give 0 or a number above it");
+      };
+      positive("Young's modulus [Pa]", bolt.youngs_modulus);
+      positive("area [m^2]", bolt.area);
+      positive("spacing [m]", bolt.spacing);
+      limit("yield force [N]", bolt.yield_force);
+      limit("rupture strain [-]", bolt.rupture_strain);
+      limit("bond strength [N/m]", bolt.bond_strength);
+      limit("grouted length [m]", bolt.grouted_length);
+      not_negative("pretension [N]", bolt.pretension);
+      not_negative("dowel stiffness [N/m]", bolt.dowel_stiffness);
+      not_negative("bedding stiffness [N/m^2]", bolt.bedding_stiffness);
+      if (is_grouted)
+        positive("bond stiffness [N/m^2]", bolt.bond_stiffness);
+      const std::string where = "bolt '" + bolt.name + "'";
+      AssertThrow(is_grouted ||
+                    (bolt.bond_stiffness == 0. && bolt.dowel_stiffness == 0. &&
+                     bolt.bedding_stiffness == 0.),
+                  InputError("bond, dowel or bedding have no effect on a "
+                             "bolt that is anchored at its ends only",
+                             where,
+                             "remove them, or set 'Type = grouted'"));
+      AssertThrow(bolt.dowel_stiffness == 0. || bolt.bedding_stiffness == 0.,
+                  InputError("dowel and bedding stiffness are both given",
+                             where,
+                             "give one, the other follows from it"));
+      AssertThrow(bolt.pretension == 0. || !is_grouted || bolt.faceplate,
+                  InputError("a pretension without a faceplate has nothing "
+                             "to press on",
+                             where,
+                             "set 'Faceplate = true', or remove it"));
+    }
+  } // namespace
 
   struct BoltTerm::Data
   {
@@ -28,6 +101,7 @@ namespace NMM
     sum.add(kinematics);
     for (const Bolt &bolt : bolts)
     {
+      check_bolt(bolt);
       data->placed.emplace_back(covers, layout, bolt, kinematics);
       for (const auto &x : bolt.path)
         for (const double value : {x[0], x[1]})

@@ -5,7 +5,6 @@
 #include <base/cross.h>
 #include <cmath>
 #include <mechanics/placed_bolt.h>
-#include <sstream>
 
 namespace NMM
 {
@@ -16,74 +15,6 @@ namespace NMM
 
     namespace
     {
-      /// An error in a value of a bolt.
-      void
-      check_value(const Bolt        &bolt,
-                  const bool         is_right,
-                  const char        *what,
-                  const double       value,
-                  const std::string &remedy)
-      {
-        std::ostringstream text;
-        text << "the " << what << " is " << value;
-        AssertThrow(is_right,
-                    InputError(text.str(), "bolt '" + bolt.name + "'", remedy));
-      }
-
-
-      void
-      check(const Bolt &bolt)
-      {
-        const bool is_grouted = bolt.type == Bolt::Type::grouted;
-        const auto positive   = [&](const char *what, const double value) {
-          check_value(bolt,
-                      value > 0. && std::isfinite(value),
-                      what,
-                      value,
-                      "give a number above 0");
-        };
-        const auto limit = [&](const char *what, const double value) {
-          check_value(bolt, value > 0., what, value, "give a number above 0");
-        };
-        const auto not_negative = [&](const char *what, const double value) {
-          check_value(bolt,
-                      value >= 0. && std::isfinite(value),
-                      what,
-                      value,
-                      "give 0 or a number above it");
-        };
-        positive("Young's modulus [Pa]", bolt.youngs_modulus);
-        positive("area [m^2]", bolt.area);
-        positive("spacing [m]", bolt.spacing);
-        limit("yield force [N]", bolt.yield_force);
-        limit("rupture strain [-]", bolt.rupture_strain);
-        limit("bond strength [N/m]", bolt.bond_strength);
-        limit("grouted length [m]", bolt.grouted_length);
-        not_negative("pretension [N]", bolt.pretension);
-        not_negative("dowel stiffness [N/m]", bolt.dowel_stiffness);
-        not_negative("bedding stiffness [N/m^2]", bolt.bedding_stiffness);
-        if (is_grouted)
-          positive("bond stiffness [N/m^2]", bolt.bond_stiffness);
-        const std::string where = "bolt '" + bolt.name + "'";
-        AssertThrow(is_grouted || (bolt.bond_stiffness == 0. &&
-                                   bolt.dowel_stiffness == 0. &&
-                                   bolt.bedding_stiffness == 0.),
-                    InputError("bond, dowel or bedding have no effect on a "
-                               "bolt that is anchored at its ends only",
-                               where,
-                               "remove them, or set 'Type = grouted'"));
-        AssertThrow(bolt.dowel_stiffness == 0. || bolt.bedding_stiffness == 0.,
-                    InputError("dowel and bedding stiffness are both given",
-                               where,
-                               "give one, the other follows from it"));
-        AssertThrow(bolt.pretension == 0. || !is_grouted || bolt.faceplate,
-                    InputError("a pretension without a faceplate has nothing "
-                               "to press on",
-                               where,
-                               "set 'Faceplate = true', or remove it"));
-      }
-
-
       BarSection
       section_of(const Bolt &bolt)
       {
@@ -96,52 +27,6 @@ namespace NMM
         // ten diameters, as in a tensile test
         section.gauge_length = 20. * std::sqrt(bolt.area / dealii::numbers::PI);
         return section;
-      }
-
-
-      /// Elements of a stretch. With a fifth of the length over which forces decay, the error of the
-      /// pull-out force is below 1e-4. A bar that may break has elements of its gauge length. A bonded
-      /// bar yields where the force is largest, in one point: at such an end there is a short element,
-      /// along which the force hardly changes.
-      std::vector<BoltBar::Element>
-      make_elements(const BoltStretch &stretch,
-                    const BarSection  &section,
-                    const bool         is_bonded,
-                    const bool         may_yield_first,
-                    const bool         may_yield_last)
-      {
-        constexpr double per_decay = 5., of_decay = 2e-4, at_most = 0.1;
-        constexpr double at_least = 4.;
-        const double     length   = stretch.end - stretch.begin,
-                     decay =
-                       std::sqrt(section.stiffness / section.bond_stiffness);
-        double n = at_least, tiny = 0.;
-        if (is_bonded)
-          n = std::max(n, per_decay * length / decay);
-        if (is_bonded && std::isfinite(section.yield_force))
-          tiny = std::min(of_decay * decay, at_most * length);
-        if (std::isfinite(section.rupture_strain))
-          n = std::max(n, length / section.gauge_length);
-        std::vector<double> ends = {stretch.begin};
-        const double first = stretch.begin + (may_yield_first ? tiny : 0.),
-                     last  = stretch.end - (may_yield_last ? tiny : 0.);
-        n                  = std::ceil(n);
-        for (unsigned int e = 0; e <= n; ++e)
-          if (const double s = first + e / n * (last - first); s > ends.back())
-            ends.push_back(s);
-        if (last < stretch.end)
-          ends.push_back(stretch.end);
-        std::vector<BoltBar::Element> elements;
-        for (unsigned int e = 0; e + 1 < ends.size(); ++e)
-        {
-          const double size = ends[e + 1] - ends[e];
-          elements.push_back(
-            {ends[e],
-             ends[e + 1],
-             is_bonded,
-             BoltBar::hardening * (size < 1.5 * tiny ? size / length : 1.)});
-        }
-        return elements;
       }
 
 
@@ -168,7 +53,6 @@ namespace NMM
       : given(bolt)
       , kinematics(kinematics)
     {
-      check(bolt);
       double length = 0.;
       for (unsigned int i = 0; i + 1 < bolt.path.size(); ++i)
         length += bolt.path[i].distance(bolt.path[i + 1]);
@@ -208,11 +92,10 @@ namespace NMM
                   elements,
                   /* head_is_tied = */ !is_grouted || bolt.faceplate,
                   /* toe_is_tied = */ !is_grouted);
-      check_value(bolt,
-                  bolt.pretension / bolt.spacing <= bar->largest_pretension(),
-                  "pretension [N]",
-                  bolt.pretension,
-                  "give at most what bond and bar bear");
+      AssertThrow(bolt.pretension / bolt.spacing <= bar->largest_pretension(),
+                  InputError("the pretension is more than bond and bar bear",
+                             "bolt '" + bolt.name + "'",
+                             "give a lower one, or a stronger bolt"));
       const double bending = bolt.youngs_modulus * bolt.area * bolt.area /
                              (4. * dealii::numbers::PI);
       beta            = bolt.bedding_stiffness > 0.
@@ -818,7 +701,7 @@ namespace NMM
           place.force = given.spacing * axial[e + side];
           if (is_installed && elements[e].is_bonded && !is_absent[station])
           {
-            place.slip = response.v[2 * (e + side)] -
+            place.slip = response.v[BoltBar::node(e + side, 0)] -
                          (measures.r[station] -
                           (reference.r[station] - reference.r[first]));
             place.bond = bar->has_slipped(state, site + 2 * side)
@@ -832,7 +715,8 @@ namespace NMM
         if (elements[e].is_bonded)
           site += 3;
         for (const unsigned int q : {0, 1})
-          if (state.strain[2 * e + q] != 0. && state.is_broken[e] == 0)
+          if (state.strain[BoltBar::point(e, q)] != 0. &&
+              state.is_broken[e] == 0)
             result.yielded_length +=
               0.5 * (elements[e].end - elements[e].begin);
         result.n_breaks += state.is_broken[e] != 0;

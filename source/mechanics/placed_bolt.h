@@ -1,7 +1,8 @@
 #ifndef nmm_source_mechanics_placed_bolt_h
 #define nmm_source_mechanics_placed_bolt_h
 
-#include <nmm/mechanics/bolt_term.h>
+#include <nmm/mechanics/bolt.h>
+#include <nmm/mechanics/force_term.h>
 
 #include <array>
 #include <mechanics/bolt_bar.h>
@@ -15,10 +16,10 @@ namespace NMM
   namespace internal
   {
     /**
-     * A bolt in the rock: stations, which are material points along it, and what their displacements
-     * are for its bar, see BoltTerm. A line of stations runs from the head to the toe; neighbours that
-     * are present are joined by links, whose elongations add up to r. A joint that is crossed has a
-     * station on each of its sides.
+     * A bolt in the rock: stations, which are material points along it, and what their
+     * displacements are for its bar, see BoltTerm. A line of stations runs from the head to the
+     * toe; neighbours that are present are joined by links, whose elongations add up to r. A joint
+     * that is crossed has a station on each of its sides.
      */
     class PlacedBolt
     {
@@ -42,8 +43,8 @@ namespace NMM
         }
       };
 
-      /// A joint that is crossed, between two stations. The direction of the bolt there is that from
-      /// each base to the station on its side.
+      /// A joint that is crossed, between two stations. The direction of the bolt there is that
+      /// from each base to the station on its side.
       struct Crossing
       {
         std::string          joint;
@@ -149,7 +150,8 @@ namespace NMM
         unsigned int     site;
       };
 
-      /// Two neighbouring stations that are present, and the crossing between them or invalid_index.
+      /// Two neighbouring stations that are present, and the crossing between them or
+      /// invalid_index.
       struct Link
       {
         unsigned int         a, b, crossing;

@@ -1,5 +1,4 @@
 #include <nmm/covers/point_location.h>
-#include <nmm/output/picture.h>
 #include <nmm/output/picture_data.h>
 #include <nmm/output/picture_scale.h>
 

@@ -16,9 +16,9 @@ namespace NMM
   namespace internal
   {
     /**
-     * The bolts of a scene: their force term, and the tables bolts.csv and bolt-joints.csv with what
-     * they bear in each step. In an analysis with stages, bolts that a stage names are installed when
-     * it begins; all others act from the first step on.
+     * The bolts of a scene: their force term, and the tables bolts.csv and bolt-joints.csv with
+     * what they bear in each step. In an analysis with stages, bolts that a stage names are
+     * installed when it begins; all others act from the first step on.
      */
     class SceneBolts
     {

@@ -1,10 +1,8 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/geometry/geometry.h>
-#include <nmm/scene/scene_parameters.h>
+#include <nmm/scene/scene_parameters_bolts.h>
 
-#include <algorithm>
 #include <limits>
-#include <map>
 #include <scene/parsing.h>
 
 // This file has the parameters of bolts.
@@ -137,32 +135,5 @@ namespace NMM
       result.push_back(one);
     }
     return result;
-  }
-
-
-  void
-  SceneParameters::check_bolts() const
-  {
-    std::map<std::string, std::string> installed_in;
-    for (const StageParameters &stage : stages)
-      for (const std::string &name : stage.installed)
-      {
-        const std::string where =
-          "parameter 'Stages/" + stage.name + "/Install'";
-        AssertThrow(std::any_of(bolts.begin(),
-                                bolts.end(),
-                                [&](const BoltParameters &bolt) {
-                                  return bolt.name == name;
-                                }),
-                    InputError("there is no bolt '" + name + "'",
-                               where,
-                               "name a bolt of section 'Bolts'"));
-        AssertThrow(installed_in.emplace(name, stage.name).second,
-                    InputError("the bolt '" + name +
-                                 "' is installed a second time, after stage '" +
-                                 installed_in[name] + "'",
-                               where,
-                               "install each bolt once"));
-      }
   }
 } // namespace NMM

@@ -323,4 +323,31 @@ namespace NMM
                            "they are those of each stage: let them ascend to "
                            "1"));
   }
+
+
+  void
+  SceneParameters::check_bolts() const
+  {
+    std::map<std::string, std::string> installed_in;
+    for (const StageParameters &stage : stages)
+      for (const std::string &name : stage.installed)
+      {
+        const std::string where =
+          "parameter 'Stages/" + stage.name + "/Install'";
+        AssertThrow(std::any_of(bolts.begin(),
+                                bolts.end(),
+                                [&](const BoltParameters &bolt) {
+                                  return bolt.name == name;
+                                }),
+                    InputError("there is no bolt '" + name + "'",
+                               where,
+                               "name a bolt of section 'Bolts'"));
+        AssertThrow(installed_in.emplace(name, stage.name).second,
+                    InputError("the bolt '" + name +
+                                 "' is installed a second time, after stage '" +
+                                 installed_in[name] + "'",
+                               where,
+                               "install each bolt once"));
+      }
+  }
 } // namespace NMM

@@ -1,5 +1,5 @@
-// Bolts in motion: energy and momentum are accounted for while the bond slips, and a run that continues
-// from a checkpoint takes the same steps.
+// Bolts in motion: energy and momentum are accounted for while the bond slips, and a run that
+// continues from a checkpoint takes the same steps.
 
 #include <nmm/dynamics/checkpoint.h>
 #include <nmm/mechanics/bolt_term.h>

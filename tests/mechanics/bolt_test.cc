@@ -1,5 +1,6 @@
-// Rock bolts: bars with a bond that yields, against closed forms, and their tangent. Values are those
-// of Farmer's bar (Rock Mech. 1975) with a bond that yields, and of beams on an elastic foundation.
+// Rock bolts: bars with a bond that yields, against closed forms, and their tangent. Values are
+// those of Farmer's bar (Rock Mech. 1975) with a bond that yields, and of beams on an elastic
+// foundation.
 
 #include <nmm/base/archive.h>
 #include <nmm/base/exceptions.h>
@@ -78,9 +79,9 @@ namespace
   };
 
 
-  // Elastic stiffness, force at first yield, with half of the bond slipped, and the limit. The table
-  // has the values of `reference/practice.md`, V1, which a finite-element bar of 4000 elements confirms
-  // to 1e-8.
+  // Elastic stiffness, force at first yield, with half of the bond slipped, and the limit. The
+  // table has the values of `reference/practice.md`, V1, which a finite-element bar of 4000
+  // elements confirms to 1e-8.
   TEST(Bolts, PullOutFromRigidRock)
   {
     struct Row
@@ -141,8 +142,8 @@ namespace
   }
 
 
-  /// Two blocks, of which the second one is moved, and the bolt between them. All of their boundaries
-  /// have prescribed displacements, so that they are rigid.
+  /// Two blocks, of which the second one is moved, and the bolt between them. All of their
+  /// boundaries have prescribed displacements, so that they are rigid.
   struct TwoBlocks
   {
     TwoBlocks(const std::vector<Bolt> &bolts,
@@ -324,8 +325,8 @@ namespace
   }
 
 
-  // A pretension is there before anything moves, and what moves later is added. Along a free length it
-  // is constant, along the bond it decays.
+  // A pretension is there before anything moves, and what moves later is added. Along a free length
+  // it is constant, along the bond it decays.
   TEST(Bolts, Pretension)
   {
     Bolt bolt           = grouted({{-2., 0.43}, {2., 0.43}});
@@ -484,8 +485,8 @@ namespace
   };
 
 
-  // Forces are the derivative of the energy as long as nothing yields, and the tangent that of forces,
-  // also where bond and steel yield, and for conserving forces.
+  // Forces are the derivative of the energy as long as nothing yields, and the tangent that of
+  // forces, also where bond and steel yield, and for conserving forces.
   TEST(Bolts, TangentIsTheDerivative)
   {
     unsigned int n_samples = 0;

@@ -33,7 +33,7 @@
  * | mechanical_model.h | the forces of a body as a list of terms |
  * | solid_term.h | the term of a solid, at rest or in motion, in both kinematics |
  * | spring_term.h | the term of springs between material points |
- * | bolt_term.h | the term of rock bolts and anchors |
+ * | bolt.h, bolt_term.h | the term of rock bolts and anchors |
  * | loading.h | loads, releases and base acceleration as functions of time |
  * | mass_matrix.h | consistent mass matrix |
  * | material_vector.h | positions of material points as functions of the unknowns |

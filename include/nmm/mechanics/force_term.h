@@ -299,12 +299,13 @@ namespace NMM
    * or be removed, set_presence() notes which of MaterialVector::blocks are absent, and assemble()
    * leaves out what belongs to them.
    *
-   * The same terms act in motion (MechanicalModel, TimeIntegrator) and at rest: NonlinearStatics and
-   * ContactStatics take a list of them. At rest the time is the load factor, and Trial::begin is
-   * null. relax() moves the model of a TimeIntegrator: steps are accepted on the way, so that what
-   * yields or slides in an overshoot stays so. Scenes know bolts (BoltTerm), but
-   * neither springs nor such terms of a program's own yet. In the library a term has a file of its own, which source/mechanics/CMakeLists.txt and
-   * the table of files in elasticity_problem.h name, a test in tests/dynamics and a file in doc/news.
+   * The same terms act in motion (MechanicalModel, TimeIntegrator) and at rest: NonlinearStatics
+   * and ContactStatics take a list of them. At rest the time is the load factor, and Trial::begin
+   * is null. relax() moves the model of a TimeIntegrator: steps are accepted on the way, so that
+   * what yields or slides in an overshoot stays so. Scenes know bolts (BoltTerm), but neither
+   * springs nor such terms of a program's own yet. In the library a term has a file of its own,
+   * which source/mechanics/CMakeLists.txt and the table of files in elasticity_problem.h name, a
+   * test in tests/dynamics and a file in doc/news.
    */
   class ForceTerm
   {

@@ -1,9 +1,10 @@
 #ifndef nmm_scene_scene_parameters_bolts_h
 #define nmm_scene_scene_parameters_bolts_h
 
-#include <nmm/mechanics/bolt_term.h>
+#include <nmm/mechanics/bolt.h>
 
 #include <string>
+#include <vector>
 
 namespace NMM
 {

@@ -7,18 +7,6 @@
 
 namespace NMM
 {
-  namespace
-  {
-    /// What the last analysis has left.
-    enum class Phase
-    {
-      undeformed,
-      at_rest,
-      in_motion
-    };
-  } // namespace
-
-
   struct Simulation::Data
   {
     Data(Simulation &owner, const Solid &solid, SimulationParameters given)
@@ -32,6 +20,14 @@ namespace NMM
                                                  this->given.problem,
                                                  *this->given.contact);
     }
+
+    /// What the last analysis has left.
+    enum class Phase
+    {
+      undeformed,
+      at_rest,
+      in_motion
+    };
 
     Simulation                                          &owner;
     const Solid                                         &solid;
@@ -242,7 +238,7 @@ namespace NMM
   Simulation::equilibrate(const LoadSteps &steps)
   {
     data->begin_rest();
-    data->phase        = Phase::at_rest;
+    data->phase        = Data::Phase::at_rest;
     LoadSteps absolute = steps;
     for (double &factor : absolute.load_factors)
       factor += data->begin_of_stage;
@@ -260,7 +256,7 @@ namespace NMM
   Simulation::relax(const RelaxationParameters &parameters)
   {
     data->begin_motion(/* is_relaxation = */ true);
-    data->phase = Phase::at_rest;
+    data->phase = Data::Phase::at_rest;
     const RelaxationReport report =
       NMM::relax(data->motion->integrator(),
                  parameters,
@@ -278,9 +274,9 @@ namespace NMM
   void
   Simulation::advance(const double duration, const StepControlParameters &steps)
   {
-    if (!data->motion || data->phase != Phase::in_motion)
+    if (!data->motion || data->phase != Data::Phase::in_motion)
       data->begin_motion(/* is_relaxation = */ false);
-    data->phase      = Phase::in_motion;
+    data->phase      = Data::Phase::in_motion;
     const double end = data->time + duration;
     StepControl(steps).run(data->motion->integrator(),
                            end,
@@ -323,7 +319,7 @@ namespace NMM
                                 data->given.problem,
                                 parameters,
                                 data->contact.get());
-    if (data->phase != Phase::undeformed)
+    if (data->phase != Data::Phase::undeformed)
       reduction.start_from({data->u,
                             data->history,
                             data->materials,
@@ -381,7 +377,7 @@ namespace NMM
     Vector result(data->solid.covers().locally_owned_dofs(2),
                   data->solid.covers().locally_relevant_dofs(2),
                   data->solid.covers().communicator());
-    if (data->phase != Phase::undeformed)
+    if (data->phase != Data::Phase::undeformed)
       result = data->u;
     return result;
   }

@@ -63,7 +63,7 @@ namespace
   {
     SimulationParameters result        = rock_under_gravity();
     result.problem.boundary_conditions = {
-      {"held", "bottom", BoundaryCondition::Type::displacement}};
+      {"held", "bottom", BoundaryCondition::Type::displacement, nullptr}};
     result.contact.emplace();
     result.contact->choices.law = coulomb_friction(0.5);
     return result;
@@ -91,7 +91,7 @@ namespace
       0.13);
     SimulationParameters pulled        = rock_under_gravity();
     pulled.problem.boundary_conditions = {
-      {"held", "bottom", BoundaryCondition::Type::displacement}};
+      {"held", "bottom", BoundaryCondition::Type::displacement, nullptr}};
     Simulation simulation(plate, pulled);
     simulation.equilibrate();
 

@@ -75,6 +75,37 @@ namespace NMM
     } // namespace
 
 
+    namespace
+    {
+      /// @throws InputError for a path that runs along a curve between @p a and @p b, so that its side
+      /// would be chosen by rounding.
+      void
+      check_side(const PhysicalMesh &mesh,
+                 const Point<2>     &a,
+                 const Point<2>     &b,
+                 const std::string  &what)
+      {
+        constexpr double tolerance = 1e-6;
+        for (unsigned int p = 0; p < mesh.pieces().size(); ++p)
+          for (const double at : {0.25, 0.5, 0.75})
+          {
+            const Point<2> x = a + at * (b - a);
+            if (x.distance(nearest_point(mesh.pieces()[p], x)) >
+                tolerance * a.distance(b))
+              break;
+            AssertThrow(
+              at < 0.7,
+              InputError(what + " runs along '" +
+                           mesh.curves()[mesh.piece_to_curve()[p]].name +
+                           "', so that its side is not certain",
+                         to_string(x),
+                         "let its path cross the curve, or lie beside "
+                         "it"));
+          }
+      }
+    } // namespace
+
+
     std::vector<BoltStretch>
     cut_bolt_path(const ManifoldMesh          &mesh,
                   const std::vector<Point<2>> &path,
@@ -98,7 +129,8 @@ namespace NMM
       for (unsigned int i = 0; i + 1 < cuts.size(); ++i)
       {
         const Point<2> &a = cuts[i].x, &b = cuts[i + 1].x;
-        BoltStretch     stretch;
+        check_side(mesh.physical_mesh(), a, b, what);
+        BoltStretch stretch;
         stretch.begin              = cuts[i].s;
         stretch.end                = cuts[i + 1].s;
         const unsigned int element = mesh.find_element(a + 0.5 * (b - a));

@@ -121,15 +121,13 @@ namespace NMM
         given.type == Bolt::Type::end_anchored || given.faceplate;
       unsigned int site = 0, e = 0;
       const auto   add = [&](const Point<2> &x, const unsigned int of_site) {
-        Station station{material_point(covers,
-                                       *layout.constraints,
-                                       x,
-                                       "a point of the bolt '" + given.name +
-                                         "'"),
-                        x,
-                        of_site};
-        station.displacement.constant -= x;
-        stations.push_back(std::move(station));
+        vectors.push_back(
+          material_point(covers,
+                         *layout.constraints,
+                         x,
+                         "a point of the bolt '" + given.name + "'"));
+        vectors.back().constant -= x;
+        stations.push_back({x, of_site});
       };
       for (unsigned int i = 0; i < stretches.size(); ++i)
       {
@@ -192,17 +190,17 @@ namespace NMM
     void
     PlacedBolt::number_unknowns()
     {
-      for (const Station &station : stations)
+      for (const MaterialVector &vector : vectors)
         all_unknowns.insert(all_unknowns.end(),
-                            station.displacement.unknowns.begin(),
-                            station.displacement.unknowns.end());
+                            vector.unknowns.begin(),
+                            vector.unknowns.end());
       std::sort(all_unknowns.begin(), all_unknowns.end());
       all_unknowns.erase(std::unique(all_unknowns.begin(), all_unknowns.end()),
                          all_unknowns.end());
-      for (const Station &station : stations)
+      for (const MaterialVector &vector : vectors)
       {
         places.emplace_back();
-        for (const auto unknown : station.displacement.unknowns)
+        for (const auto unknown : vector.unknowns)
           places.back().push_back(std::lower_bound(all_unknowns.begin(),
                                                    all_unknowns.end(),
                                                    unknown) -
@@ -218,8 +216,8 @@ namespace NMM
       is_site_absent.assign(bar->sites().size(), false);
       for (unsigned int i = 0; i < stations.size(); ++i)
       {
-        is_absent[i] = !absent_blocks.empty() &&
-                       absent_blocks[stations[i].displacement.blocks[0]];
+        is_absent[i] =
+          !absent_blocks.empty() && absent_blocks[vectors[i].blocks[0]];
         if (stations[i].site != invalid_index)
           is_site_absent[stations[i].site] = is_absent[i];
       }
@@ -252,9 +250,6 @@ namespace NMM
     PlacedBolt::Displacements
     PlacedBolt::displacements(const ForceTerm::Vector &u) const
     {
-      std::vector<MaterialVector> vectors;
-      for (const Station &station : stations)
-        vectors.push_back(station.displacement);
       return evaluate(vectors, u);
     }
 
@@ -353,7 +348,7 @@ namespace NMM
         for (unsigned int i = 0; i < places[station].size(); ++i)
           for (unsigned int c = 0; c < 2; ++c)
             rows[c][places[station][i]] +=
-              factor * stations[station].displacement.weights[i][c];
+              factor * vectors[station].weights[i][c];
       return rows;
     }
 
@@ -582,14 +577,15 @@ namespace NMM
     {
       const BoltBar::Response response = respond(end);
       std::vector<double>     forces   = response.forces;
+      Forces                  result;
+      result.is_found = response.has_converged;
       if (begin != nullptr)
       {
         const BoltBar::Response before = respond(*begin);
+        result.is_found = result.is_found && before.has_converged;
         for (unsigned int i = 0; i < forces.size(); ++i)
           forces[i] = 0.5 * (forces[i] + before.forces[i]);
       }
-      Forces result;
-      result.is_found         = response.has_converged;
       const Matrix       left = rows_of_sites(end, begin);
       const unsigned int n    = all_unknowns.size();
       result.forces.reinit(n);

@@ -145,7 +145,6 @@ namespace NMM
     private:
       struct Station
       {
-        MaterialVector   displacement;
         dealii::Point<2> x;
         unsigned int     site;
       };
@@ -232,6 +231,8 @@ namespace NMM
 
       std::optional<BoltBar> bar;
       std::vector<Station>   stations;
+      /// The displacement of each station as a function of the unknowns.
+      std::vector<MaterialVector> vectors;
       /// Stations at the begin and end of each element; invalid_index outside the rock.
       std::vector<std::array<unsigned int, 2>> ends;
       std::vector<Crossing>                    crossings;

@@ -203,6 +203,17 @@ namespace NMM
     }
 
 
+    /// The largest force of a bolt, of either sign [N].
+    double
+    largest_bolt_force(const PictureData &data)
+    {
+      double largest = 0.;
+      for (const PictureData::BoltLine &bolt : data.bolts)
+        largest = std::max(largest, std::abs(bolt.force));
+      return largest;
+    }
+
+
     std::string
     subtitle(const PictureData       &data,
              const PictureParameters &parameters,
@@ -234,6 +245,13 @@ namespace NMM
         // With this precision numbers below a million have no exponent.
         text << ", displacements × " << std::setprecision(6)
              << data.deformation_scale;
+      }
+      if (const double largest = largest_bolt_force(data); largest > 0.)
+      {
+        const int force = choose_exponent(0., largest);
+        text << ", bolts up to " << number_text(largest / std::pow(10., force))
+             << (force == 0 ? "" : " × 10" + superscript(force)) << ' '
+             << parameters.stress_unit << ' ' << parameters.length_unit << "²";
       }
       return text.str();
     }
@@ -469,13 +487,14 @@ namespace NMM
     constexpr double bolt_width = 1.2, bolt_width_of_force = 4.;
 
 
-    /// White without force, red in tension and blue in compression.
+    /// White without force, orange in tension and blue in compression. Red are forces of contact.
     std::array<double, 4>
     bolt_colour(const double share)
     {
       const double rest = 1. - std::min(1., std::abs(share));
-      return share >= 0. ? std::array<double, 4>{{1., rest, rest, 1.}}
-                         : std::array<double, 4>{{rest, rest, 1., 1.}};
+      return share >= 0.
+               ? std::array<double, 4>{{1., 0.55 + 0.45 * rest, rest, 1.}}
+               : std::array<double, 4>{{rest, rest, 1., 1.}};
     }
 
 
@@ -541,14 +560,18 @@ namespace NMM
                  {grown_face_width,
                   CAIRO_LINE_CAP_ROUND,
                   {{0.05, 0.05, 0.05, 1.}}});
+      const double largest = largest_bolt_force(data);
       for (const PictureData::BoltLine &bolt : data.bolts)
+      {
+        const double share = largest > 0. ? bolt.force / largest : 0.;
         draw_lines(cr,
                    {bolt.line},
                    layout,
                    scale,
-                   {bolt_width + bolt_width_of_force * std::abs(bolt.share),
+                   {bolt_width + bolt_width_of_force * std::abs(share),
                     CAIRO_LINE_CAP_BUTT,
-                    bolt_colour(bolt.share)});
+                    bolt_colour(share)});
+      }
       draw_obstacles(cr, data, layout);
       draw_bars(cr, data, layout, largest_traction);
       for (const PictureData::Vertex &tip : data.tips)

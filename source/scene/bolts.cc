@@ -178,7 +178,6 @@ namespace NMM
     void
     SceneBolts::add_to(PictureData &picture) const
     {
-      const double largest = std::abs(largest_force(reports));
       for (const BoltReport &report : reports)
         for (unsigned int i = 0;
              report.is_installed && i + 1 < report.places.size();
@@ -188,7 +187,7 @@ namespace NMM
                                   &b = report.places[i + 1];
           PictureData::BoltLine line;
           line.line  = {{a.x, a.u}, {b.x, b.u}};
-          line.share = largest > 0. ? 0.5 * (a.force + b.force) / largest : 0.;
+          line.force = 0.5 * (a.force + b.force);
           picture.bolts.push_back(line);
         }
     }

@@ -193,6 +193,9 @@ namespace
     expect_rejected_with(steel,
                          "Bolts/anchor/Path=LINESTRING (0.1 -7, 0.1 0.1)",
                          {"'anchor'", "begins outside the rock"});
+    expect_rejected_with(steel,
+                         "Bolts/anchor/Path=LINESTRING (0.1 0, 0.4 0)",
+                         {"'anchor'", "runs along", "side is not certain"});
     expect_rejected_with(bolt,
                          "Bolts/anchor/Area=0",
                          {"'anchor'", "area", "above 0"});

@@ -109,15 +109,15 @@ namespace NMM
     {
       /// The line.
       Polyline line;
-      /// Axial force over the largest one of all bolts, of either sign [-].
-      double share = 0.;
+      /// Axial force of one bolt, positive in tension [N].
+      double force = 0.;
 
       /// Writes or reads the line.
       template <typename Archive>
       void
       serialize(Archive &archive, unsigned int)
       {
-        archive &line &share;
+        archive &line &force;
       }
     };
     /// Bolts and anchors.

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <analysis/mechanism.h>
-#include <limits>
+#include <analysis/staged_loads.h>
 #include <memory>
+#include <optional>
 #include <sstream>
 
 namespace NMM
@@ -53,12 +54,10 @@ namespace NMM
                    solid.constraints(),
                    problem,
                    /* may_float = */ contact != nullptr)
-      , largest_load(
-          std::make_shared<double>(std::numeric_limits<double>::infinity()))
+      , loads(std::make_shared<internal::StagedLoads>(problem, parameters.full))
     {
-      const Loading grows = proportional_loading(problem, parameters.full);
-      loading.amplitudes  = [grows, most = largest_load](const double factor) {
-        return grows.amplitudes(std::min(*most, factor));
+      loading.amplitudes = [loads = loads](const double load_factor) {
+        return loads->at(load_factor);
       };
       term    = make_solid(elasticity, parameters.kinematics, loading);
       further = std::make_unique<FurtherTerms>(parameters.further_terms,
@@ -85,15 +84,15 @@ namespace NMM
                                                    further->pointers());
     }
 
-    const Solid                  &solid;
-    const ElasticityProblem      &problem;
-    ContactModel                 *contact;
-    FiniteElasticity              elasticity;
-    std::shared_ptr<double>       largest_load;
-    Loading                       loading;
-    std::unique_ptr<SolidTerm>    term;
-    std::unique_ptr<FurtherTerms> further;
-    NewtonParameters              newton;
+    const Solid                           &solid;
+    const ElasticityProblem               &problem;
+    ContactModel                          *contact;
+    FiniteElasticity                       elasticity;
+    std::shared_ptr<internal::StagedLoads> loads;
+    Loading                                loading;
+    std::unique_ptr<SolidTerm>             term;
+    std::unique_ptr<FurtherTerms>          further;
+    NewtonParameters                       newton;
     /// @{
     /// One of both is null.
     std::unique_ptr<NonlinearStatics> alone;
@@ -251,12 +250,32 @@ namespace NMM
   void
   Equilibrium::begin_stage(const StageChange &change)
   {
-    *data->largest_load = std::min(*data->largest_load, data->reached);
-    const double end    = data->reached + 1.;
+    const double end = data->reached + 1.;
+    data->loads->begin_stage(data->reached, end, change.loads);
     if (data->alone)
       data->alone->begin_stage(change, end);
     else
       data->touching->begin_stage(change, end);
+  }
+
+
+  void
+  Equilibrium::run_stages(
+    LoadSteps                                                       steps,
+    const std::vector<StageChange>                                 &stages,
+    const std::function<void(const ContactStep &, const Vector &)> &after_step,
+    const std::function<void(unsigned int)>                        &begin)
+  {
+    run(steps, after_step);
+    for (unsigned int i = 0; i < stages.size(); ++i)
+    {
+      if (begin)
+        begin(i);
+      begin_stage(stages[i]);
+      for (double &load_factor : steps.load_factors)
+        load_factor += 1.;
+      run(steps, after_step);
+    }
   }
 
 
@@ -270,7 +289,7 @@ namespace NMM
     if (InelasticTerms *const inelastic = data->term->inelastic_terms())
       inelastic->forget_states();
     data->further->forget();
-    *data->largest_load = std::numeric_limits<double>::infinity();
+    data->loads->begin_anew();
     data->reached = data->friction_work = data->material_work = 0.;
     data->n_steps                                             = 0;
     data->make_equations();

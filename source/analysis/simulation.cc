@@ -2,6 +2,7 @@
 #include <nmm/base/exceptions.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -53,6 +54,16 @@ namespace NMM
     double                    begin_of_stage = 0.;
     /// Whether a part of the forces on removed blocks is still held.
     bool holds_forces = false;
+    /// The last StageChange::loads.
+    std::optional<LoadAmplitudes> staged_loads;
+
+    /// The loads in motion.
+    Loading
+    loading() const
+    {
+      return staged_loads ? loading_after_stage(given.loading, *staged_loads)
+                          : given.loading;
+    }
 
     void
     tell() const
@@ -124,9 +135,10 @@ namespace NMM
       return;
     store();
     AssertThrow(phase == Phase::undeformed ||
-                  (materials.empty() && removed_blocks.empty()),
-                InputError("materials that yield, or blocks beside removed "
-                           "ones, have moved",
+                  (materials.empty() && removed_blocks.empty() &&
+                   !staged_loads),
+                InputError("materials that yield, or a solid whose blocks, "
+                           "loads or supports a stage has changed, have moved",
                            "Simulation::equilibrate()",
                            "use Simulation::relax()"));
     if (contact)
@@ -162,15 +174,15 @@ namespace NMM
     how.further_terms = given.further_terms;
     if (is_relaxation)
     {
-      const LoadAmplitudes amplitudes = given.loading.amplitudes
-                                          ? given.loading.amplitudes(0.)
-                                          : LoadAmplitudes();
+      const Loading        now = loading();
+      const LoadAmplitudes amplitudes =
+        now.amplitudes ? now.amplitudes(0.) : LoadAmplitudes();
       how.loading.amplitudes = [amplitudes](double) { return amplitudes; };
       how.scheme             = TimeScheme::constant_acceleration();
       how.contact_update     = ContactUpdate::every_step;
       return how;
     }
-    how.loading = given.loading;
+    how.loading = loading();
     how.damping = given.damping;
     how.scheme  = given.scheme ? *given.scheme
                   : contact != nullptr || given.kinematics == Kinematics::finite
@@ -302,6 +314,8 @@ namespace NMM
                                 change.removed_blocks.begin(),
                                 change.removed_blocks.end());
     data->holds_forces = change.released < 1.;
+    if (change.loads)
+      data->staged_loads = change.loads;
   }
 
 

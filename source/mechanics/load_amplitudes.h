@@ -36,6 +36,22 @@ namespace NMM
     }
 
 
+    /// Whether a support that @p before has is removed in @p after.
+    inline bool
+    releases_more(const LoadAmplitudes &before, const LoadAmplitudes &after)
+    {
+      const auto more = [](const std::vector<bool> &old,
+                           const std::vector<bool> &now) {
+        for (std::size_t i = 0; i < now.size(); ++i)
+          if (now[i] && (old.empty() || !old[i]))
+            return true;
+        return false;
+      };
+      return more(before.released_conditions, after.released_conditions) ||
+             more(before.released_fixed_points, after.released_fixed_points);
+    }
+
+
     /// Set the amplitudes of loads (@p are_loads) or of prescribed displacements to 0.
     inline void
     set_conditions_to_zero(const ElasticityProblem &problem,

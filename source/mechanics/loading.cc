@@ -39,6 +39,46 @@ namespace NMM
   }
 
 
+  LoadAmplitudes
+  product(const LoadAmplitudes &a, const LoadAmplitudes &b)
+  {
+    LoadAmplitudes result = a;
+    for (const auto list : {&LoadAmplitudes::boundary_conditions,
+                            &LoadAmplitudes::point_forces,
+                            &LoadAmplitudes::fixed_points})
+    {
+      const std::vector<double> &factors = b.*list;
+      if ((result.*list).empty())
+        (result.*list).assign(factors.size(), 1.);
+      for (std::size_t i = 0; i < factors.size(); ++i)
+        (result.*list)[i] *= factors[i];
+    }
+    for (const auto list : {&LoadAmplitudes::released_conditions,
+                            &LoadAmplitudes::released_fixed_points})
+    {
+      const std::vector<bool> &gone = b.*list;
+      if ((result.*list).empty())
+        (result.*list).assign(gone.size(), false);
+      for (std::size_t i = 0; i < gone.size(); ++i)
+        (result.*list)[i] = (result.*list)[i] || gone[i];
+    }
+    result.gravity *= b.gravity;
+    result.body_force *= b.body_force;
+    return result;
+  }
+
+
+  Loading
+  loading_after_stage(const Loading &loading, const LoadAmplitudes &stage)
+  {
+    Loading result    = loading;
+    result.amplitudes = [before = loading.amplitudes, stage](const double t) {
+      return before ? product(before(t), stage) : stage;
+    };
+    return result;
+  }
+
+
   namespace
   {
     /// @p function times @p factor; null stays null.

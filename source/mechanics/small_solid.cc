@@ -47,9 +47,9 @@ namespace NMM
                            internal::without_prescribed(problem, amplitudes),
                          supports =
                            internal::without_loads(problem, amplitudes);
+    set_amplitudes(amplitudes);
     if (!has_stiffness || stiffness_at != version())
     {
-      set_amplitudes(amplitudes);
       elastic->assemble_at_rest(1.);
       stiffness_at     = version();
       has_stiffness    = true;

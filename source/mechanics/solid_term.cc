@@ -456,9 +456,18 @@ namespace NMM
   {
     if (internal::equal(amplitudes, current))
       return false;
+    n_changes += internal::releases_more(current, amplitudes) ||
+                 internal::releases_more(amplitudes, current);
     elastic->set_amplitudes(amplitudes);
     current = amplitudes;
     return true;
+  }
+
+
+  bool
+  SolidTerm::loses_supports_at(const double t) const
+  {
+    return internal::releases_more(current, amplitudes_at(t));
   }
 
 

@@ -134,8 +134,10 @@ namespace NMM
   {
     const std::string where =
       "the stage that begins at load factor " + std::to_string(begin);
-    // the least share of blocks removed earlier; blocks that go now begin with 0
-    double before = removed.empty() || !change.removed_blocks.empty() ? 0. : 1.;
+    const bool removes_anything =
+      !change.removed_blocks.empty() || solid_term->loses_supports_at(begin);
+    // the least share of what was removed earlier; what goes now begins with 0
+    double before = removed.empty() || removes_anything ? 0. : 1.;
     for (const Held &held : removed)
       before = std::min(before, 1. - held.share(begin));
     AssertThrow(change.released >= before && change.released <= 1.,
@@ -162,10 +164,10 @@ namespace NMM
               end,
               held.share(begin),
               std::min(held.share(begin), 1. - change.released)};
-    if (change.removed_blocks.empty())
+    if (!removes_anything)
       return;
-    // In equilibrium the residual is what the removed blocks have exerted on the rest. What was held
-    // before is a part of that equilibrium.
+    // In equilibrium the residual is what removed blocks and supports have exerted on the rest. What
+    // was held before is a part of that equilibrium.
     model.set_absent_blocks(is_removed);
     Held held{assemble_residual(u, begin, "the beginning of a stage"),
               begin,

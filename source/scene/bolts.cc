@@ -15,13 +15,18 @@ namespace NMM
     {
       /// The stage that begins at the load factor 1 + i installs bolts that its parameters name.
       std::vector<Bolt>
-      bolts_of(const SceneParameters &parameters)
+      bolts_of(const SceneParameters      &parameters,
+               const SceneBolts::Installed installed)
       {
-        std::vector<Bolt> result;
+        std::vector<Bolt>  result;
+        const unsigned int n_stages =
+          installed == SceneBolts::Installed::in_stages
+            ? parameters.stages.size()
+            : 0;
         for (const BoltParameters &one : parameters.bolts)
         {
           double installed_at = std::numeric_limits<double>::lowest();
-          for (unsigned int i = 0; i < parameters.stages.size(); ++i)
+          for (unsigned int i = 0; i < n_stages; ++i)
           {
             const auto &names = parameters.stages[i].installed;
             if (std::find(names.begin(), names.end(), one.name) != names.end())
@@ -69,11 +74,16 @@ namespace NMM
     SceneBolts::maker()
     {
       return [this](const Solid &solid, const ModelLayout &layout) {
-        auto term =
+        const SceneParameters &parameters = scene->parameters();
+        auto                   term =
           std::make_unique<BoltTerm>(solid.covers(),
                                      layout,
-                                     bolts_of(scene->parameters()),
-                                     scene->parameters().model.kinematics);
+                                     bolts_of(parameters,
+                                              parameters.model.analysis ==
+                                                  Analysis::statics
+                                                ? Installed::in_stages
+                                                : Installed::before),
+                                     parameters.model.kinematics);
         bolts = term.get();
         return term;
       };
@@ -81,14 +91,16 @@ namespace NMM
 
 
     std::vector<TermMaker>
-    SceneBolts::makers(const Scene &scene)
+    SceneBolts::makers(const Scene &scene, const Installed installed)
     {
       if (scene.parameters().bolts.empty())
         return {};
-      return {[&scene](const Solid &solid, const ModelLayout &layout) {
+      return {[&scene, installed](const Solid       &solid,
+                                  const ModelLayout &layout) {
         return std::make_unique<BoltTerm>(solid.covers(),
                                           layout,
-                                          bolts_of(scene.parameters()),
+                                          bolts_of(scene.parameters(),
+                                                   installed),
                                           scene.parameters().model.kinematics);
       }};
     }

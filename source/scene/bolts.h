@@ -17,12 +17,20 @@ namespace NMM
   {
     /**
      * The bolts of a scene: their force term, and the tables bolts.csv and bolt-joints.csv with
-     * what they bear in each step. In an analysis with stages, bolts that a stage names are
-     * installed when it begins; all others act from the first step on.
+     * what they bear in each step. In stages, bolts that a stage names are installed when it begins; all
+     * others act from the first step on.
      */
     class SceneBolts
     {
     public:
+      /// When the bolts that a stage names are installed: by that stage, or before the analysis, which
+      /// follows the stages.
+      enum class Installed
+      {
+        in_stages,
+        before
+      };
+
       /// The bolts of @p scene, which must outlive this object; null if it has none.
       static std::unique_ptr<SceneBolts>
       make(const Scene &scene);
@@ -35,7 +43,7 @@ namespace NMM
 
       /// The makers of terms that no table shows, one or none.
       static std::vector<TermMaker>
-      makers(const Scene &scene);
+      makers(const Scene &scene, Installed installed);
 
       /// Notes what bolts bear at the accepted displacements @p u. Collective.
       void

@@ -486,9 +486,10 @@ namespace NMM
        "it has not been built: what bolts remember is not carried over to the "
        "solid that is cut again",
        "remove one of the two"},
-      {{{C::stages}, not_static},
-       "it has not been built: stages are load steps",
-       "set 'Model/Analysis = static'"},
+      {{{C::stages}, {C::relaxation}},
+       "each stage ends in an equilibrium, after which nothing is to be "
+       "relaxed",
+       "set 'Model/Analysis' to static, dynamic or safety factor"},
       {{{C::stages}, {C::growth}},
        "it has not been built: what was excavated and released is not carried "
        "over to the solid that is cut again",

@@ -228,8 +228,9 @@ namespace NMM
     {
       return continues_in_start() ||
              (restart.empty() && kind == Analysis::dynamics &&
-              scene.parameters().time.start !=
-                TimeParameters::Start::undeformed);
+              (scene.parameters().time.start !=
+                 TimeParameters::Start::undeformed ||
+               !scene.parameters().stages.empty()));
     }
 
 
@@ -288,6 +289,8 @@ namespace NMM
         v = initial_velocity();
       // This applies the releases at 0 s.
       motion->integrator().initialize(u, v);
+      if (!start.removed_blocks.empty())
+        motion->integrator().drop_blocks(start.removed_blocks);
       last_good    = motion->integrator().state();
       can_be_saved = true;
       write_first_state();

@@ -26,6 +26,7 @@ namespace NMM
       const SceneParameters &parameters = scene.parameters();
       EquilibriumParameters  how;
       how.kinematics = parameters.model.kinematics;
+      how.full       = scene.loads_before_stages();
       how.newton     = show_iterations(parameters.newton.newton, progress);
       bolts          = SceneBolts::make(scene);
       if (bolts)
@@ -111,29 +112,22 @@ namespace NMM
     void
     NonlinearAnalysis::run_stages()
     {
-      LoadSteps  steps      = scene.parameters().load_steps.load_steps();
-      const auto after_step = [this](const ContactStep &step, const Vector &u) {
-        add_step(step, u);
-      };
       if (!contact && problem.has_varying_initial_stress())
         report_initial_balance(equilibrium->initial_forces());
       try
       {
-        equilibrium->run(steps, after_step);
-        for (unsigned int i = 0; i < stages.size(); ++i)
-        {
-          const double begin = 1. + i;
-          progress.message("    stage '" + scene.parameters().stages[i].name +
-                           "', load factors " + to_text(begin) + " to " +
-                           to_text(begin + 1.));
-          equilibrium->begin_stage(stages[i]);
-          removed_blocks.insert(removed_blocks.end(),
-                                stages[i].removed_blocks.begin(),
-                                stages[i].removed_blocks.end());
-          for (double &load_factor : steps.load_factors)
-            load_factor += 1.;
-          equilibrium->run(steps, after_step);
-        }
+        equilibrium->run_stages(
+          scene.parameters().load_steps.load_steps(),
+          stages,
+          [this](const ContactStep &step, const Vector &u) {
+            add_step(step, u);
+          },
+          [this](const unsigned int i) {
+            progress.message("    " + describe_stage(scene, i));
+            removed_blocks.insert(removed_blocks.end(),
+                                  stages[i].removed_blocks.begin(),
+                                  stages[i].removed_blocks.end());
+          });
       }
       catch (const NumericalFailure &)
       {

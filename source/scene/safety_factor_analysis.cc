@@ -56,7 +56,8 @@ namespace NMM
                                           /* has_contact = */ true);
       how.contact_update    = update_in_relaxation(how.scheme);
       how.newton            = motion_newton_parameters(scene, progress);
-      how.further_terms     = SceneBolts::makers(scene);
+      how.further_terms =
+        SceneBolts::makers(scene, SceneBolts::Installed::before);
       reduction             = std::make_unique<StrengthReduction>(*solid,
                                                       problem,
                                                       std::move(parameters),
@@ -81,7 +82,8 @@ namespace NMM
         find_start({scene, *solid, problem, contact.get(), progress}, report);
       start.materials = report.material_state;
       start.terms     = report.term_state;
-      n_start_steps   = report.n_steps;
+      removed_blocks = start.removed_blocks = report.removed_blocks;
+      n_start_steps                         = report.n_steps;
       if (contact)
         start.contact = contact->contact().history();
       reduction->start_from(std::move(start));
@@ -128,7 +130,8 @@ namespace NMM
     {
       const SafetyFactorSectionParameters &parameters =
         scene.parameters().safety_factor;
-      if (parameters.start == Start::settled)
+      if (parameters.start == Start::settled ||
+          !scene.parameters().stages.empty())
         settle();
       try
       {
@@ -267,6 +270,7 @@ namespace NMM
         *recovery,
         problem,
         CurrentStress::of(term, solid->quadrature()));
+      evaluator->hide_blocks(removed_blocks);
       if (terms != nullptr)
         evaluator->set_plastic_strain(CurrentStress::plastic_strain(
           *terms, solid->covers(), solid->quadrature()));

@@ -38,6 +38,8 @@ namespace NMM
 
       std::unique_ptr<StrengthReduction> reduction;
       unsigned int                       n_start_steps = 0;
+      /// Blocks that stages have removed.
+      std::vector<unsigned int> removed_blocks;
 
       /// The stage of the search, while it runs.
       Progress::Stage *stage = nullptr;

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <iomanip>
 #include <scene/shapes.h>
-#include <set>
 #include <sstream>
 
 // This file makes the geometry of a scene: boundaries, joints and regions.
@@ -137,35 +136,6 @@ namespace NMM
       if (parameters.use == RegionParameters::Use::limit)
         limits.push_back(make_region(parameters));
     return limits;
-  }
-
-
-  std::vector<StageChange>
-  Scene::make_stages(const PhysicalMesh &mesh) const
-  {
-    std::vector<StageChange> result;
-    std::set<unsigned int>   gone;
-    for (const StageParameters &stage : scene_parameters.stages)
-    {
-      const auto &names = stage.removed_regions;
-      StageChange change;
-      change.released = stage.relaxation;
-      for (const RegionParameters &region : scene_parameters.regions)
-        if (std::find(names.begin(), names.end(), region.name) != names.end())
-          for (const unsigned int block :
-               mesh.blocks_inside(make_region(region)))
-            // regions may overlap
-            if (gone.insert(block).second)
-              change.removed_blocks.push_back(block);
-      AssertThrow(names.empty() || !change.removed_blocks.empty(),
-                  InputError("no block of the solid is inside the regions that "
-                             "the stage removes",
-                             "parameter 'Stages/" + stage.name +
-                               "/Remove regions'",
-                             "let their borders surround a part of the solid"));
-      result.push_back(change);
-    }
-    return result;
   }
 
 

@@ -3,13 +3,16 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cmath>
 #include <scene/expression.h>
 #include <scene/parsing.h>
+#include <scene/staged_conditions.h>
 #include <scene/time_function.h>
+#include <set>
 #include <utility>
 
-// This file makes loads and conditions as functions of time.
+// This file makes loads and conditions as functions of time and stage.
 namespace NMM
 {
   namespace
@@ -139,6 +142,19 @@ namespace NMM
   Loading
   Scene::make_loading() const
   {
+    const Loading              loading = loads_in_time();
+    internal::StagedConditions stages(scene_parameters);
+    bool                       has_changes = false;
+    for (const StageParameters &stage : scene_parameters.stages)
+      has_changes = stages.begin(stage) || has_changes;
+    return has_changes ? loading_after_stage(loading, stages.amplitudes())
+                       : loading;
+  }
+
+
+  Loading
+  Scene::loads_in_time() const
+  {
     const SceneParameters &p         = scene_parameters;
     const auto             functions = std::make_shared<LoadFunctions>();
     Loading                loading;
@@ -255,5 +271,50 @@ namespace NMM
     return [x = components[0], y = components[1]](const double t) {
       return dealii::Tensor<1, 2>({x(t), y(t)});
     };
+  }
+
+
+  LoadAmplitudes
+  Scene::loads_before_stages() const
+  {
+    const Loading loading = loads_in_time();
+    return product(loading.amplitudes ? loading.amplitudes(0.)
+                                      : LoadAmplitudes(),
+                   internal::StagedConditions(scene_parameters).amplitudes());
+  }
+
+
+  std::vector<StageChange>
+  Scene::make_stages(const PhysicalMesh &mesh) const
+  {
+    std::vector<StageChange> result;
+    std::set<unsigned int>   gone;
+    const Loading            in_time = loads_in_time();
+    const LoadAmplitudes     at_start =
+      in_time.amplitudes ? in_time.amplitudes(0.) : LoadAmplitudes();
+    internal::StagedConditions conditions(scene_parameters);
+    for (const StageParameters &stage : scene_parameters.stages)
+    {
+      const auto &names = stage.removed_regions;
+      StageChange change;
+      change.released = stage.relaxation;
+      for (const RegionParameters &region : scene_parameters.regions)
+        if (std::find(names.begin(), names.end(), region.name) != names.end())
+          for (const unsigned int block :
+               mesh.blocks_inside(make_region(region)))
+            // regions may overlap
+            if (gone.insert(block).second)
+              change.removed_blocks.push_back(block);
+      AssertThrow(names.empty() || !change.removed_blocks.empty(),
+                  InputError("no block of the solid is inside the regions that "
+                             "the stage removes",
+                             "parameter 'Stages/" + stage.name +
+                               "/Remove regions'",
+                             "let their borders surround a part of the solid"));
+      if (conditions.begin(stage))
+        change.loads = product(at_start, conditions.amplitudes());
+      result.push_back(change);
+    }
+    return result;
   }
 } // namespace NMM

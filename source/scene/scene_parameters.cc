@@ -365,9 +365,10 @@ namespace NMM
     check_in_situ_stress();
     for (const BoundaryConditionParameters &condition : boundary_conditions)
       condition.check();
-    // A start from equilibrium is a static analysis before a dynamic one.
-    const bool starts_static = model.analysis == Analysis::dynamics &&
-                               time.start == TimeParameters::Start::equilibrium;
+    // A start from equilibrium or stages is a static analysis before another one.
+    const bool starts_static =
+      !stages.empty() || (model.analysis == Analysis::dynamics &&
+                          time.start == TimeParameters::Start::equilibrium);
     load_steps.check(model.kinematics,
                      starts_static ? Analysis::statics : model.analysis,
                      is_nonlinear());

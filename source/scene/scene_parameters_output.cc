@@ -307,7 +307,7 @@ namespace NMM
       "Stages",
       names.stages,
       stages,
-      "Static analysis: names of the stages after the first equilibrium, in "
+      "Names of the stages after the first equilibrium, in "
       "their order, each with a subsection of its own. Each begins where the "
       "one before has ended.");
     entries.section("Solver",

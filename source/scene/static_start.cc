@@ -19,14 +19,6 @@ namespace NMM
 
     namespace
     {
-      LoadAmplitudes
-      amplitudes_at_start(const Scene &scene)
-      {
-        const Loading loading = scene.make_loading();
-        return loading.amplitudes ? loading.amplitudes(0.) : LoadAmplitudes();
-      }
-
-
       void
       show_load(Progress::Stage   &stage,
                 const StartReport &report,
@@ -49,20 +41,32 @@ namespace NMM
         const SceneParameters &parameters = input.scene.parameters();
         EquilibriumParameters  how;
         how.kinematics = parameters.model.kinematics;
-        how.full       = amplitudes_at_start(input.scene);
+        how.full       = input.scene.loads_before_stages();
         how.newton = show_iterations(parameters.newton.newton, input.progress);
-        how.further_terms = SceneBolts::makers(input.scene);
+        how.further_terms =
+          SceneBolts::makers(input.scene, SceneBolts::Installed::in_stages);
         Equilibrium equilibrium(input.solid, input.problem, how, input.contact);
         LoadSteps   steps = parameters.load_steps.load_steps();
         // One linear problem needs no steps.
         if (how.kinematics == Kinematics::small && !parameters.is_nonlinear())
           steps = LoadSteps();
-        equilibrium.run(steps, [&](const ContactStep &step, const Vector &) {
-          ++report.n_steps;
-          report.n_iterations += step.n_iterations + step.n_lost_iterations;
-          show_load(stage, report, step.load_factor);
-          stop_if_asked(input.solid.covers().communicator());
-        });
+        const std::vector<StageChange> stages =
+          input.scene.make_stages(input.solid.physical_mesh());
+        equilibrium.run_stages(
+          steps,
+          stages,
+          [&](const ContactStep &step, const Vector &) {
+            ++report.n_steps;
+            report.n_iterations += step.n_iterations + step.n_lost_iterations;
+            show_load(stage, report, step.load_factor);
+            stop_if_asked(input.solid.covers().communicator());
+          },
+          [&](const unsigned int i) {
+            input.progress.message("  " + describe_stage(input.scene, i));
+            report.removed_blocks.insert(report.removed_blocks.end(),
+                                         stages[i].removed_blocks.begin(),
+                                         stages[i].removed_blocks.end());
+          });
         if (const InelasticTerms *terms =
               equilibrium.solid_term().inelastic_terms())
           report.material_state = terms->internal_state();
@@ -136,7 +140,9 @@ namespace NMM
             false,
             NumericalFailure(
               "There is no equilibrium to start from: " + error.message(),
-              input.scene.parameters().model.analysis == Analysis::safety_factor
+              !input.scene.parameters().stages.empty() ? "section 'Stages'"
+              : input.scene.parameters().model.analysis ==
+                  Analysis::safety_factor
                 ? "parameter 'Safety factor/Start'"
                 : "parameter 'Time/Start'",
               is_relaxed ? "see that obstacles and supports hold every "
@@ -155,7 +161,7 @@ namespace NMM
       start_parameters(const StartInput &input)
       {
         const SceneParameters &parameters = input.scene.parameters();
-        const LoadAmplitudes   amplitudes = amplitudes_at_start(input.scene);
+        const LoadAmplitudes   amplitudes = input.scene.loads_before_stages();
         TimeParameters         time       = parameters.time;
         time.scheme                       = TimeParameters::Scheme::automatic;
         MotionParameters result;
@@ -167,7 +173,8 @@ namespace NMM
         result.contact_update     = ContactUpdate::every_step;
         result.is_accounted       = false;
         result.newton = motion_newton_parameters(input.scene, input.progress);
-        result.further_terms = SceneBolts::makers(input.scene);
+        result.further_terms =
+          SceneBolts::makers(input.scene, SceneBolts::Installed::before);
         return result;
       }
     } // namespace
@@ -179,6 +186,15 @@ namespace NMM
                start_parameters(input),
                input.contact)
     {
+    }
+
+
+    std::string
+    describe_stage(const Scene &scene, const unsigned int stage)
+    {
+      return "stage '" + scene.parameters().stages[stage].name +
+             "', load factors " + std::to_string(stage + 1) + " to " +
+             std::to_string(stage + 2);
     }
 
 
@@ -195,8 +211,9 @@ namespace NMM
     find_start(const StartInput &input, StartReport &report)
     {
       const SceneParameters &parameters = input.scene.parameters();
-      if (parameters.model.analysis == Analysis::safety_factor ||
-          parameters.time.start == TimeParameters::Start::relaxation)
+      if (parameters.stages.empty() &&
+          (parameters.model.analysis == Analysis::safety_factor ||
+           parameters.time.start == TimeParameters::Start::relaxation))
       {
         StartRelaxation relaxation(input);
         return find_start(input, relaxation, report);

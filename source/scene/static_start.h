@@ -50,7 +50,14 @@ namespace NMM
       std::vector<char> material_state;
       /// FurtherTerms::save() of bolts.
       std::vector<char> term_state;
+      /// Blocks that stages have removed.
+      std::vector<unsigned int> removed_blocks;
     };
+
+
+    /// "stage 'bench', load factors 1 to 2".
+    std::string
+    describe_stage(const Scene &scene, unsigned int stage);
 
 
     /// Parameters of Newton's method for time steps and relaxation, with signs of life.
@@ -59,7 +66,8 @@ namespace NMM
 
 
     /**
-     * Finds the equilibrium from which a dynamic analysis starts, if it does not start undeformed.
+     * Finds the equilibrium from which a dynamic analysis starts, if it does not start undeformed. If the
+     * scene has stages, it is that at the end of the last one.
      * Loads, supports and obstacles are those of t = 0, before any release
      * and without motion of the ground. The contact keeps its history from the start: anchors of
      * the stick state and broken bonds. Returns the displacements of owned unknowns [m].

@@ -172,6 +172,35 @@ namespace
     expect_rejected_with(two,
                          "Load steps/Load factors=1, 0.5",
                          {"Load factors", "ascend to 1"});
+    const Arguments moves = two + Arguments{"Model/Analysis=dynamic",
+                                            "Time/End time=1",
+                                            "Time/Initial step=0.1",
+                                            "Materials/rock/Density=1"};
+    expect_rejected_with(moves,
+                         "Time/Start=relaxation",
+                         {"Time/Start", "equilibrium", "stages"});
+    expect_rejected_with(moves + Arguments{"Stages/one/Relaxation=0.5"},
+                         "Stages/two/Relaxation=0.5",
+                         {"Stages/two/Relaxation", "held", "dynamic"});
+  }
+
+
+  TEST(BadInput, ConditionsInStages)
+  {
+    const std::vector<std::string> two = {"Stages/Names=one, two"};
+    expect_rejected_with(two,
+                         "Stages/one/Add conditions=wind",
+                         {"'wind'", "Stages/one/Add", "Point forces"});
+    expect_rejected_with(two,
+                         "Stages/one/Add conditions=held",
+                         {"'held'", "support", "bolt"});
+    expect_rejected_with(
+      two + std::vector<std::string>{"Stages/one/Remove conditions=corner"},
+      "Stages/two/Remove conditions=corner",
+      {"'corner'", "acts no longer", "Stages/two"});
+    expect_rejected_with(two,
+                         "Stages/one/Relaxation=0.5",
+                         {"nothing has been removed", "Stages/one"});
   }
 
 

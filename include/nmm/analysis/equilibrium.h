@@ -29,7 +29,7 @@ namespace NMM
   /**
    * Static equilibrium of a solid under loads that grow with the load factor, by Newton's method, with
    * contact if there is any, and in stages. Loads grow in proportion to the load factor until the
-   * first stage begins, and keep their size from then on.
+   * first stage begins. From then on they keep their size, unless StageChange::loads changes them.
    *
    * With contact each accepted step is taken into account by ContactModel::take_state().
    *
@@ -63,6 +63,16 @@ namespace NMM
     /// @throws as StaticSystem::begin_stage().
     void
     begin_stage(const StageChange &change);
+
+    /// Take the load @p steps to the first equilibrium, and in each of @p stages those steps again, whose
+    /// load factors follow those of the stage before. @p begin is called with the number of each
+    /// stage before it begins. @throws as run() and begin_stage().
+    void
+    run_stages(LoadSteps                       steps,
+               const std::vector<StageChange> &stages,
+               const std::function<void(const ContactStep &, const Vector &)>
+                                                       &after_step,
+               const std::function<void(unsigned int)> &begin = {});
 
     /// Begin again without loads and without any history.
     void

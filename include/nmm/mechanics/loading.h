@@ -65,6 +65,17 @@ namespace NMM
                        const LoadAmplitudes    &full = {});
 
 
+  /// The loads @p a multiplied by those of @p b. Empty lists stand for 1, and a support is released if it
+  /// is in one of both.
+  LoadAmplitudes
+  product(const LoadAmplitudes &a, const LoadAmplitudes &b);
+
+
+  /// @p loading with all loads multiplied by @p stage, the loads and supports that a stage has left.
+  Loading
+  loading_after_stage(const Loading &loading, const LoadAmplitudes &stage);
+
+
   /// @p problem with gravity, body force and the values of its conditions and points multiplied by
   /// @p amplitudes. Empty lists stand for 1.
   ElasticityProblem

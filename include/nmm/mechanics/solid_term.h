@@ -92,6 +92,10 @@ namespace NMM
     double
     strain_energy_at(const Vector &u, double t);
 
+    /// Whether supports that the last forces have are removed at the time @p t [s].
+    bool
+    loses_supports_at(double t) const;
+
   protected:
     /**
      * @p mass is the matrix of ModelLayout::mass, see make_mass_matrix(). TimeIntegrator needs it,
@@ -202,8 +206,8 @@ namespace NMM
     double
     accept_inelastic(const Trial &step);
 
-    /// Number of releases passed so far, and of changes of absent blocks or of the tangent by
-    /// damp().
+    /// Number of releases passed so far, and of changes of absent blocks, of supports, or of the
+    /// tangent by damp().
     unsigned int n_passed = 0, n_changes = 0;
     SolidLayout  unknowns;
     /// The forces of a unit acceleration of the base [kg/m]; empty if the base does not move.

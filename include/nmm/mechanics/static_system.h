@@ -5,13 +5,15 @@
 #include <nmm/mechanics/solid_term.h>
 #include <nmm/solution/newton_solver.h>
 
+#include <optional>
 #include <vector>
 
 namespace NMM
 {
   /**
    * What changes at the beginning of a stage, between two static equilibria: blocks are removed, as
-   * by an excavation. The tractions that they exerted on the rest of the body do not vanish at once. A
+   * by an excavation, supports are removed, and loads are added or taken away. The tractions that
+   * removed blocks and supports exerted on the rest of the body do not vanish at once. A
    * share `released` of them is taken away in proportion to the load factor until the end of the
    * stage, and the rest is held until a later stage releases more: the load that the rock in front of
    * the face, or a support that is not modelled, still bears (the convergence-confinement method).
@@ -20,9 +22,14 @@ namespace NMM
   {
     /// Blocks (ManifoldMesh::block()) that are removed for good.
     std::vector<unsigned int> removed_blocks;
-    /// Share of the tractions of all blocks removed so far that is released at the end of the stage,
-    /// from 0 to 1 [-]. Blocks of which more has been released before stay so: nothing is held again.
+    /// Share of the tractions of all blocks and supports removed so far that is released at the end of
+    /// the stage, from 0 to 1 [-]. Where more has been released before, it stays so: nothing is held
+    /// again.
     double released = 1.;
+    /// Loads and prescribed displacements at the end of the stage, which they reach in proportion to
+    /// the load factor, and the supports that are gone from its beginning on; empty: they stay as
+    /// they are. This is carried out by Equilibrium, and with equations of one's own by their Loading.
+    std::optional<LoadAmplitudes> loads = std::nullopt;
   };
 
 
@@ -36,7 +43,7 @@ namespace NMM
    * @f[ r(u) = \sum_\mathrm{terms} r_i(u) - \langle 1 - \lambda\rangle_+\,r_0
    *     - \sum_k h_k(\lambda)\,f_k. @f]
    * So a state that is in balance with all loads stays at rest in all load steps. f_k are the forces
-   * out of balance when blocks were removed, and h_k is the share of them that is still held, see
+   * out of balance when blocks or supports were removed, and h_k is the share of them that is still held, see
    * StageChange. What has been released is not held back again. r_0 is that of inelastic materials; ContactStatics holds the sum
    * of all terms, also the pretension of springs, if joints have an initial stress.
    *
@@ -95,7 +102,8 @@ namespace NMM
     commit(const Vector &u);
 
     /// Begin a stage that takes the load factor from @p begin to @p end, at the equilibrium @p u of
-    /// the stage before.
+    /// the stage before. Supports are removed by the amplitudes of the solid's Loading at @p begin, which
+    /// are those of the new stage.
     /// @throws InputError for a block that does not exist or is gone already, and for a share that is
     /// out of range, or that would change nothing since more of all blocks has been released. @throws NumericalFailure if forces cannot be assembled.
     void

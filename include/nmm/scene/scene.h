@@ -96,6 +96,11 @@ namespace NMM
     std::string
     title() const;
 
+    /// The amplitudes of loads at rest before the first stage: those of t = 0, and 0 for loads that a
+    /// stage adds. Lists are empty if all amplitudes are 1.
+    LoadAmplitudes
+    loads_before_stages() const;
+
     /// What changes at the beginning of each stage. @throws InputError for regions to be removed in
     /// which there is no block of the @p mesh.
     std::vector<StageChange>
@@ -137,7 +142,7 @@ namespace NMM
     ElasticityProblem
     make_problem() const;
 
-    /// The dependence of the problem's loads and conditions on time. Its functions throw
+    /// The dependence of the problem's loads and conditions on time, after all stages. Its functions throw
     /// NumericalFailure where an expression has no value. @throws InputError
     /// for an expression that cannot be parsed or has no value at the start or
     /// the end, and for a file that cannot be read.
@@ -196,6 +201,10 @@ namespace NMM
     add_traces(const TraceParameters    &traces,
                Geometry                 &geometry,
                std::vector<std::string> *notices) const;
+
+    /// The dependence of loads and conditions on time, without what stages change.
+    Loading
+    loads_in_time() const;
 
     using TimeVector = std::function<dealii::Tensor<1, 2>(double)>;
 

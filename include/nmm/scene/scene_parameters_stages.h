@@ -18,10 +18,12 @@ namespace NMM
     std::string name;
     /// Names of the regions that are removed at the beginning of the stage.
     std::vector<std::string> removed_regions;
+    /// Names of the loads that begin to act in the stage, and of the loads and supports that cease to.
+    std::vector<std::string> added_conditions, removed_conditions;
     /// Names of the bolts that are installed at the beginning of the stage.
     std::vector<std::string> installed;
-    /// Share of the tractions on the walls of all regions removed so far that is released at the end
-    /// of the stage [-].
+    /// Share of the tractions on the walls of all regions, and of all supports, removed so far that is
+    /// released at the end of the stage [-].
     double relaxation = 1.;
 
     /// Declares or reads the entries of the subsection.

@@ -115,6 +115,9 @@ namespace NMM
     unknowns.set_absent_blocks(presence.absent_blocks);
     ++n_changes;
     set_mass_of_translation();
+    // What is absent does not hold its neighbours back by the ties that they had.
+    if (damping_matrix)
+      make_damping_matrix();
   }
 
 
@@ -245,6 +248,15 @@ namespace NMM
                 InputError("A solid without masses is damped by them",
                            "",
                            "give the mass matrix"));
+    damping_by_matrix = damping;
+    make_damping_matrix();
+  }
+
+
+  void
+  SolidTerm::make_damping_matrix()
+  {
+    const RayleighDamping &damping = damping_by_matrix;
     damping_matrix.reset();
     if (damping.mass == 0. && damping.stiffness == 0.)
       return;

@@ -176,7 +176,7 @@ namespace
                                             "Time/End time=1",
                                             "Time/Initial step=0.1",
                                             "Materials/rock/Density=1"};
-    expect_rejected_with(moves,
+    expect_rejected_with(moves + Arguments{"Relaxation/Step=0.1"},
                          "Time/Start=relaxation",
                          {"Time/Start", "equilibrium", "stages"});
     expect_rejected_with(moves + Arguments{"Stages/one/Relaxation=0.5"},

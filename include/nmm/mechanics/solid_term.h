@@ -197,6 +197,10 @@ namespace NMM
     void
     set_mass_of_translation();
 
+    /// Makes `damping_matrix` for the blocks that are there.
+    void
+    make_damping_matrix();
+
     /// Work of loads and of supports in a step of motion.
     StepWork
     work_of(const Trial &step);
@@ -216,6 +220,8 @@ namespace NMM
     Presence       presence;
     /// See damping().
     std::unique_ptr<Matrix> damping_matrix;
+    /// The coefficients with which it is made.
+    RayleighDamping damping_by_matrix;
     /// Loads at the end of the last step that was committed [N/m] and its time [s], unless they
     /// have changed since.
     Vector                last_loads;

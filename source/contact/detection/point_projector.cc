@@ -247,32 +247,48 @@ namespace NMM
 
 
     ContactProjection
-    PointProjector::project(const ContactPoint          &point,
-                            const PointData             &fixed,
-                            const ContactSurface::Place &slave,
-                            const Positions              positions) const
+    PointProjector::project_on(const unsigned int           edge,
+                               const ContactPoint          &point,
+                               const PointData             &fixed,
+                               const ContactSurface::Place &slave) const
     {
-      ContactProjection projection = find_master(point, fixed, slave);
-      const auto        project_on = [&](const unsigned int &edge) {
-        return narrow.project(slave,
-                              dealii::ArrayView<const unsigned int>(&edge, 1),
-                              fixed.slack,
-                              fixed.home,
-                              find_admitted(point, fixed));
-      };
-      if (positions == Positions::between && fixed.corner < PointKind::along)
-        stay_with_face_of_end(point, fixed, slave, projection);
-      // A piece ends where two edges of the master meet. Its end point stays with one of them,
-      // because their normals differ slightly and the iteration would not converge.
+      return narrow.project(slave,
+                            dealii::ArrayView<const unsigned int>(&edge, 1),
+                            fixed.slack,
+                            fixed.home,
+                            find_admitted(point, fixed));
+    }
+
+
+    ContactProjection
+    PointProjector::project_end(const ContactPoint          &point,
+                                const PointData             &fixed,
+                                const ContactSurface::Place &slave) const
+    {
+      const ContactProjection projection = find_master(point, fixed, slave);
       if (fixed.corner == PointKind::along && point.master != invalid_index &&
           projection.master != invalid_index &&
           point.master != projection.master &&
           goes_on(*surface, point.master, projection.master, 1))
       {
-        const ContactProjection last = project_on(point.master);
+        const ContactProjection last =
+          project_on(point.master, point, fixed, slave);
         if (last.master != invalid_index)
-          projection = last;
+          return last;
       }
+      return projection;
+    }
+
+
+    ContactProjection
+    PointProjector::project(const ContactPoint          &point,
+                            const PointData             &fixed,
+                            const ContactSurface::Place &slave,
+                            const Positions              positions) const
+    {
+      ContactProjection projection = project_end(point, fixed, slave);
+      if (positions == Positions::between && fixed.corner < PointKind::along)
+        stay_with_face_of_end(point, fixed, slave, projection);
       // Points that are made again in a concave corner during a motion stay on their face, because
       // each change would lose or create the energy of the spring. Within a step, the face at its end
       // is found first.
@@ -282,7 +298,8 @@ namespace NMM
           projection.master != invalid_index && projection.gap < 0. &&
           point.stick_edge != projection.master)
       {
-        const ContactProjection last = project_on(point.stick_edge);
+        const ContactProjection last =
+          project_on(point.stick_edge, point, fixed, slave);
         if (last.master != invalid_index && last.gap < 0.)
           projection = last;
       }

@@ -86,9 +86,12 @@ namespace NMM
               const ContactSurface::Place &slave,
               Positions                    positions) const;
 
-      /// The face by NarrowPhase alone, for a point along an edge or a corner.
+      /// The same at the end of a conserving step. A piece ends where two edges of the master meet. Its
+      /// end point stays with the edge that it has, because their normals differ slightly: the iteration
+      /// would not converge, and the gap at the end of a step would not be that at the beginning of the
+      /// next one.
       ContactProjection
-      find_master(const ContactPoint          &point,
+      project_end(const ContactPoint          &point,
                   const PointData             &fixed,
                   const ContactSurface::Place &slave) const;
 
@@ -122,6 +125,19 @@ namespace NMM
       /// is.
       unsigned int
       face_beyond_concave_end(const ContactProjection &projection) const;
+
+      /// The face by NarrowPhase alone, for a point along an edge or a corner.
+      ContactProjection
+      find_master(const ContactPoint          &point,
+                  const PointData             &fixed,
+                  const ContactSurface::Place &slave) const;
+
+      /// The projection on one edge, for a point along an edge.
+      ContactProjection
+      project_on(unsigned int                 edge,
+                 const ContactPoint          &point,
+                 const PointData             &fixed,
+                 const ContactSurface::Place &slave) const;
 
       /// Let a corner that is in contact only at one end of a step be in contact with the face of
       /// that end. At a corner of the master the nearest face in the middle of the step jumps, and

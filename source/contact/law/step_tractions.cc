@@ -74,7 +74,7 @@ namespace NMM
       {
         const ContactSurface::Place slave = surface->place(point.edge, point.s);
         const ContactProjection     projection =
-          projector->find_master(point, fixed, slave);
+          projector->project_end(point, fixed, slave);
         fixed.master_end       = projection.master;
         fixed.t_end            = projection.t;
         fixed.normal_end       = projection.normal;

@@ -35,8 +35,15 @@ namespace NMM
   void
   StrengthReduction::set_strength(const double factor)
   {
-    if (InelasticTerms *const terms = equations.solid_term().inelastic_terms())
-      terms->set_materials(reduce_strength(problem->materials, factor));
+    InelasticTerms *const terms = equations.solid_term().inelastic_terms();
+    if (terms == nullptr)
+      return;
+    std::vector<Material> materials = problem->materials;
+    if (parameters.flow_rule == FlowRule::associated)
+      materials = associate_flow(materials);
+    if (parameters.reduced != ReducedStrength::joints)
+      materials = reduce_strength(materials, factor);
+    terms->set_materials(materials);
   }
 
 
@@ -45,7 +52,8 @@ namespace NMM
   {
     equations.release_contact();
     if (contact != nullptr)
-      contact->begin_anew(factor);
+      contact->begin_anew(
+        parameters.reduced == ReducedStrength::blocks ? 1. : factor);
     equations.begin_anew();
     set_strength(factor);
     InelasticTerms *const terms      = equations.solid_term().inelastic_terms();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace NMM
 {
@@ -14,6 +15,22 @@ namespace NMM
     {
       std::unique_ptr<ContactLaw> result = law.clone();
       result->reduce_strength(factor);
+      return result;
+    }
+
+
+    /// Materials whose laws are changed by @p change.
+    std::vector<Material>
+    change_laws(const std::vector<Material>              &materials,
+                const std::function<void(MaterialLaw &)> &change)
+    {
+      std::vector<Material> result = materials;
+      for (Material &material : result)
+      {
+        std::unique_ptr<MaterialLaw> law = material.law->clone();
+        change(*law);
+        material.law = std::move(law);
+      }
       return result;
     }
 
@@ -58,14 +75,17 @@ namespace NMM
   reduce_strength(const std::vector<Material> &materials, const double factor)
   {
     check_factor(factor);
-    std::vector<Material> result = materials;
-    for (Material &material : result)
-    {
-      std::unique_ptr<MaterialLaw> law = material.law->clone();
-      law->reduce_strength(factor);
-      material.law = std::move(law);
-    }
-    return result;
+    return change_laws(materials, [factor](MaterialLaw &law) {
+      law.reduce_strength(factor);
+    });
+  }
+
+
+  std::vector<Material>
+  associate_flow(const std::vector<Material> &materials)
+  {
+    return change_laws(materials,
+                       [](MaterialLaw &law) { law.associate_flow(); });
   }
 
 

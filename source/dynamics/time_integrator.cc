@@ -8,6 +8,7 @@
 #include <dynamics/energy_account.h>
 #include <dynamics/step_equations.h>
 #include <linear_algebra/direct_solver.h>
+#include <sstream>
 
 namespace NMM
 {
@@ -82,6 +83,11 @@ namespace NMM
 
     void
     let_sleep();
+
+    /// ", with the largest force out of balance at (1, 2)", in the reference configuration; empty
+    /// without positions. Collective.
+    std::string
+    place_of_largest_force() const;
 
     MechanicalModel        *model;
     DynamicState            state;
@@ -247,6 +253,46 @@ namespace NMM
       report.factorization_time += result.factorization_time;
       report.substitution_time += result.substitution_time;
     } while (report.converged && equations.sleeping && wakes());
+    if (!report.converged)
+      report.reason += place_of_largest_force();
+  }
+
+
+  std::string
+  TimeIntegrator::Data::place_of_largest_force() const
+  {
+    namespace Parallel        = dealii::Utilities::MPI;
+    const ModelLayout &layout = model->layout();
+    if (layout.reference_positions == nullptr)
+      return "";
+    const Vector        &forces  = equations.residual();
+    double               largest = 0.;
+    dealii::Tensor<1, 2> place;
+    for (const auto i : layout.locally_owned)
+      if (!layout.constraints->is_constrained(i) &&
+          std::abs(forces(i)) > largest)
+      {
+        largest  = std::abs(forces(i));
+        place[0] = (*layout.reference_positions)(i - component_of(i));
+        place[1] = (*layout.reference_positions)(i - component_of(i) + 1);
+      }
+    const double of_all = Parallel::max(largest, layout.communicator);
+    if (!(of_all > 0.) || !std::isfinite(of_all))
+      return "";
+    // the first rank that has it
+    const unsigned int rank = Parallel::this_mpi_process(layout.communicator);
+    const unsigned int first =
+      Parallel::min(largest == of_all ? rank
+                                      : dealii::numbers::invalid_unsigned_int,
+                    layout.communicator);
+    if (rank != first)
+      place = 0.;
+    place = Parallel::sum(place, layout.communicator);
+    std::ostringstream text;
+    text.precision(6);
+    text << ", with the largest force out of balance at (" << place[0] << ", "
+         << place[1] << ')';
+    return text.str();
   }
 
 

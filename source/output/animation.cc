@@ -147,7 +147,7 @@ namespace NMM
                            "add frames in the order of their times"));
     const std::vector<char> bytes = dealii::Utilities::pack(data);
     std::ostringstream      row;
-    row << shortest_text(time) << ','
+    row << time_text(time) << ','
         << dealii::Utilities::encode_base64({bytes.begin(), bytes.end()})
         << '\n';
     const auto position =

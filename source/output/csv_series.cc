@@ -47,6 +47,19 @@ namespace NMM
   }
 
 
+  std::string
+  time_text(const double time)
+  {
+    std::array<char, 32> text;
+    const auto           end = std::to_chars(text.data(),
+                                   text.data() + text.size(),
+                                   time,
+                                   std::chars_format::general,
+                                   14);
+    return std::string(text.data(), end.ptr);
+  }
+
+
   namespace
   {
     std::string
@@ -141,7 +154,7 @@ namespace NMM
                     const unsigned int         step,
                     const std::vector<double> &values)
   {
-    std::string row = shortest_text(time) + ',' + std::to_string(step);
+    std::string row = time_text(time) + ',' + std::to_string(step);
     for (const double value : values)
       row += ',' + shortest_text(value);
     append(row + '\n');

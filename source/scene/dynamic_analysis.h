@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <scene/bolts.h>
+#include <scene/cut_notice.h>
 #include <scene/growth_in_motion.h>
 #include <scene/probe_history.h>
 #include <scene/scene_analysis.h>
@@ -106,6 +107,7 @@ namespace NMM
       /// checkpoint [J/m].
       double           largest_balance = 0., largest_energy = 0.;
       Progress::Stage *stage = nullptr;
+      CutNotice        cut_notice{progress};
       /// See warn_of_turns().
       bool has_warned_of_turns = false;
 

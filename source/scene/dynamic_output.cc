@@ -69,6 +69,7 @@ namespace NMM
     void
     DynamicAnalysis::after_step(const StepRecord &record)
     {
+      cut_notice.note(record);
       ++n_steps;
       n_iterations += record.report.n_iterations;
       if (leaving)

@@ -48,6 +48,8 @@ namespace NMM
       parameters.trial =
         given.relaxation.of_trial(given.safety_factor.max_displacement,
                                   given.safety_factor.search.tolerance);
+      parameters.reduced    = given.safety_factor.reduced;
+      parameters.flow_rule  = given.safety_factor.flow_rule;
       MotionParameters &how = parameters.motion;
       how.kinematics        = given.model.kinematics;
       how.loading           = scene.make_loading();
@@ -65,6 +67,7 @@ namespace NMM
       reduction->after_step = [this](const double      factor,
                                      const StepRecord &step) {
         stop_if_asked(communicator);
+        cut_notice.note(step);
         show_progress(factor, step);
       };
       reduction->after_trial = [this](StrengthTrial &trial) {

@@ -4,6 +4,7 @@
 #include <nmm/analysis/strength_reduction.h>
 
 #include <memory>
+#include <scene/cut_notice.h>
 #include <scene/scene_analysis.h>
 #include <string>
 #include <vector>
@@ -40,6 +41,8 @@ namespace NMM
       unsigned int                       n_start_steps = 0;
       /// Blocks that stages have removed.
       std::vector<unsigned int> removed_blocks;
+
+      CutNotice cut_notice{progress};
 
       /// The stage of the search, while it runs.
       Progress::Stage *stage = nullptr;

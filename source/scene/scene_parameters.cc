@@ -441,6 +441,22 @@ namespace NMM
       if (model.gravity.norm() > 0. && material.density == 0.)
         result.push_back("gravity has no effect on the material '" +
                          material.name + "', since its 'Density' is 0");
+    for (const Material &material : materials)
+      if (!material.law->has_associated_flow())
+      {
+        const bool is_searched = model.analysis == Analysis::safety_factor;
+        if (is_searched && safety_factor.flow_rule == FlowRule::associated)
+          result.push_back("the material '" + material.name +
+                           "' flows with a dilation angle that is its friction "
+                           "angle, as limit analysis assumes; set 'Safety "
+                           "factor/Flow rule = given' for its own");
+        else
+          result.push_back("the dilation angle of the material '" +
+                           material.name +
+                           "' is below its friction angle: bands of shear "
+                           "then depend on the mesh, and so may limit loads; "
+                           "compare two meshes");
+      }
     return result;
   }
 

@@ -231,18 +231,35 @@ namespace NMM
   SceneParameters::check_safety_factor() const
   {
     safety_factor.check(model.analysis);
-    if (model.analysis != Analysis::safety_factor || has_inelastic_material() ||
-        !contact.is_present())
+    if (model.analysis != Analysis::safety_factor)
       return;
     const auto has_strength = [](const ContactLawParameters &law) {
       return law.make_law(CoulombLaw())->transmits_shear();
     };
-    AssertThrow(has_strength(contact.law) || std::any_of(contact.laws.begin(),
-                                                         contact.laws.end(),
-                                                         has_strength),
+    const bool have_joints =
+      contact.is_present() &&
+      (has_strength(contact.law) ||
+       std::any_of(contact.laws.begin(), contact.laws.end(), has_strength));
+    const bool have_blocks = has_inelastic_material();
+    AssertThrow(safety_factor.reduced != ReducedStrength::blocks || have_blocks,
+                InputError("no material has strength to be reduced",
+                           "parameter 'Safety factor/Reduce'",
+                           "set a material's 'Law = Mohr-Coulomb', or reduce "
+                           "the strength of joints"));
+    AssertThrow(safety_factor.reduced == ReducedStrength::blocks ||
+                  have_joints || !contact.is_present() ||
+                  (have_blocks &&
+                   safety_factor.reduced == ReducedStrength::both),
                 InputError("no law of contact has strength to be reduced",
                            "section 'Contact'",
                            "give a friction angle or a cohesion"));
+    AssertThrow(safety_factor.reduced != ReducedStrength::joints ||
+                  contact.is_present(),
+                InputError("there are no joints whose strength could be "
+                           "reduced, since faces do not touch",
+                           "parameter 'Safety factor/Reduce'",
+                           "set 'Contact/Enforcement = penalty', or reduce "
+                           "the strength of blocks"));
   }
 
 

@@ -15,6 +15,12 @@ namespace NMM
     const Words<SafetyFactorSectionParameters::Start> trial_starts = {
       {"unstressed", SafetyFactorSectionParameters::Start::unstressed},
       {"settled", SafetyFactorSectionParameters::Start::settled}};
+    const Words<ReducedStrength> what_is_reduced = {
+      {"both", ReducedStrength::both},
+      {"joints", ReducedStrength::joints},
+      {"blocks", ReducedStrength::blocks}};
+    const Words<FlowRule> flow_rules = {{"associated", FlowRule::associated},
+                                        {"given", FlowRule::given}};
   } // namespace
 
 
@@ -45,6 +51,17 @@ namespace NMM
       "What each trial starts from. unstressed: blocks without displacement "
       "are put under load with reduced strength; settled: they come to rest "
       "with full strength first, and then lose it.");
+    entries.add("Reduce",
+                reduced,
+                what_is_reduced,
+                "What loses strength: joints (all laws of contact), blocks "
+                "(all materials that yield), or both.");
+    entries.add("Flow rule",
+                flow_rule,
+                flow_rules,
+                "The flow of materials that yield in the trials. associated: "
+                "their dilation angle is their friction angle, which makes "
+                "the factor that of limit analysis; given: their own.");
   }
 
 

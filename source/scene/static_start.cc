@@ -7,6 +7,7 @@
 #include <iomanip>
 #include <memory>
 #include <scene/bolts.h>
+#include <scene/cut_notice.h>
 #include <scene/static_start.h>
 #include <sstream>
 #include <utility>
@@ -88,12 +89,14 @@ namespace NMM
         RelaxationParameters parameters =
           input.scene.parameters().relaxation.bounded(
             input.solid.physical_mesh());
-        parameters.continued_step     = relaxing.continued_step;
-        const Vector           begin  = integrator.state().u;
+        parameters.continued_step    = relaxing.continued_step;
+        const Vector           begin = integrator.state().u;
+        CutNotice              cut_notice(input.progress);
         const RelaxationReport result = relax(
           integrator,
           parameters,
           [&](const StepRecord &record) {
+            cut_notice.note(record);
             ++report.n_steps;
             report.n_iterations +=
               record.report.n_iterations + record.n_lost_iterations;

@@ -103,6 +103,7 @@ namespace NMM
       }
       ++lost.n_cuts;
       lost.n_lost_iterations += verdict.n_iterations;
+      lost.last_fault = verdict.fault;
       if (trial.length > (1. + length_tolerance) * range.least)
       {
         // the smallest length is tried before the steps are given up

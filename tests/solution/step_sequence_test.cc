@@ -88,6 +88,7 @@ namespace
       EXPECT_NEAR(lengths[i + 1] / lengths[i], ratios[i], 1e-15);
     EXPECT_EQ(lost.n_cuts, 7u);
     EXPECT_EQ(lost.n_lost_iterations, 21u);
+    EXPECT_EQ(lost.last_fault.reason, "something is hit");
     EXPECT_EQ(sequence.position(), lengths.back());
     EXPECT_EQ(sequence.length(), 1.5 * lengths.back());
 

@@ -9,6 +9,29 @@
 
 namespace NMM
 {
+  /// What loses strength in a StrengthReduction.
+  enum class ReducedStrength
+  {
+    /// Faces in contact and materials that yield.
+    both,
+    /// Faces in contact.
+    joints,
+    /// Materials that yield.
+    blocks
+  };
+
+
+  /// The plastic flow in a StrengthReduction. With a dilation angle below the friction angle the factor
+  /// is not bounded by the theorems of limit analysis, and may depend on mesh and path.
+  enum class FlowRule
+  {
+    /// Flow with the friction angle as dilation angle.
+    associated,
+    /// Flow with the dilation angle of the material.
+    given
+  };
+
+
   /// Range, accuracy and trials of a StrengthReduction.
   struct StrengthReductionParameters
   {
@@ -19,6 +42,10 @@ namespace NMM
     RelaxationParameters trial;
     /// The equations of a trial.
     MotionParameters motion;
+    /// What loses strength.
+    ReducedStrength reduced = ReducedStrength::both;
+    /// The flow of materials that yield, in all trials.
+    FlowRule flow_rule = FlowRule::associated;
   };
 
 

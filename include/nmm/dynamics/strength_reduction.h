@@ -29,6 +29,11 @@ namespace NMM
   reduce_strength(const std::vector<Material> &materials, double factor);
 
 
+  /// Materials with associated flow, see MaterialLaw::associate_flow().
+  std::vector<Material>
+  associate_flow(const std::vector<Material> &materials);
+
+
   /// Result of a relaxation with reduced strength; see try_to_stand().
   struct StrengthTrial
   {

@@ -245,6 +245,20 @@ namespace NMM
     reduce_strength(double /*factor*/)
     {
     }
+
+    /// Whether plastic flow is normal to the yield surface; true without flow.
+    virtual bool
+    has_associated_flow() const
+    {
+      return true;
+    }
+
+    /// Lets the plastic flow be associated, that is normal to the yield surface. Laws without flow are
+    /// not changed.
+    virtual void
+    associate_flow()
+    {
+    }
   };
 
 

@@ -60,6 +60,20 @@ namespace NMM
     void
     reduce_strength(double factor) override;
 
+    /// Whether psi is phi.
+    bool
+    has_associated_flow() const override
+    {
+      return dilation == friction;
+    }
+
+    /// Lets psi be phi.
+    void
+    associate_flow() override
+    {
+      dilation = friction;
+    }
+
     /// Tangent of the friction angle, tan phi [-], >= 0.
     double friction = 0.;
     /// Cohesion c [Pa], >= 0.

@@ -20,6 +20,12 @@ namespace NMM
   shortest_text(double number);
 
 
+  /// A time or load factor with 14 digits at most, so that the rounding of a sum of steps does not show:
+  /// 0.03 instead of 0.029999999999999999.
+  std::string
+  time_text(double time);
+
+
   /**
    * A CSV file to which rows are appended while a run goes on; it is valid after each of
    * them. A run that continues an earlier one removes the rows after its start.
@@ -52,7 +58,7 @@ namespace NMM
     void
     append(const std::string &rows);
 
-    /// Appends a row, with numbers by shortest_text().
+    /// Appends a row, with the time by time_text() and numbers by shortest_text().
     void
     append(double time, unsigned int step, const std::vector<double> &values);
 

@@ -1,6 +1,7 @@
 #ifndef nmm_scene_scene_parameters_dynamics_h
 #define nmm_scene_scene_parameters_dynamics_h
 
+#include <nmm/analysis/strength_reduction.h>
 #include <nmm/dynamics/relaxation.h>
 #include <nmm/dynamics/strength_reduction.h>
 #include <nmm/dynamics/time_scheme.h>
@@ -193,6 +194,10 @@ namespace NMM
     double max_displacement = 0.;
     /// The state from which each trial starts.
     Start start = Start::unstressed;
+    /// What loses strength.
+    ReducedStrength reduced = ReducedStrength::both;
+    /// The flow of materials that yield.
+    FlowRule flow_rule = FlowRule::associated;
 
     /// Declares or reads the entries of the section.
     void

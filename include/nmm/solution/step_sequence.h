@@ -16,6 +16,8 @@ namespace NMM
     /// Steps that were tried and given up since the last accepted one, and their iterations.
     unsigned int n_cuts = 0, n_lost_iterations = 0;
     /// @}
+    /// Why the last one of them was given up.
+    StepFault last_fault = {};
   };
 
 

@@ -101,8 +101,9 @@ namespace NMM
         , fields{{{TipField::Kind::opening, elasticity},
                   {TipField::Kind::sliding, elasticity},
                   {TipField::Kind::point_force, elasticity}}}
-        , force_at_tip(body_force(tip.point, material.density))
+        , force_at_tip(body_force(tip.point, material))
         , has_varying_force(problem.body_force || loading.acceleration ||
+                            problem.has_forces_of_materials() ||
                             std::any_of(tip.regions.begin(),
                                         tip.regions.end(),
                                         [this](const unsigned int region) {
@@ -207,7 +208,7 @@ namespace NMM
         for (const BoundaryCondition &condition : problem.boundary_conditions)
           if (condition.is_pressure() && condition.value)
             for (const unsigned int curve :
-                 mesh.physical_mesh().find_curves(condition.curve))
+                 condition.curves_in(mesh.physical_mesh()))
               if (mesh.physical_mesh().curves()[curve].role == CurveRole::joint)
                 pressures.emplace_back(curve, &condition);
       }
@@ -258,11 +259,11 @@ namespace NMM
       }
 
 
-      /// Body force with gravity [N/m^3] on a material of the given density, in the tip's frame.
+      /// Body force with gravity [N/m^3] on a material, in the tip's frame.
       Tensor<1, 2>
-      body_force(const Point<2> &x, const double density) const
+      body_force(const Point<2> &x, const Material &material) const
       {
-        Tensor<1, 2> force = density * problem.gravity;
+        Tensor<1, 2> force = material.weight_at(x, problem.gravity);
         if (problem.body_force)
           for (unsigned int c = 0; c < 2; ++c)
             force[c] += problem.body_force->value(x, c);
@@ -345,10 +346,11 @@ namespace NMM
         Tensor<1, 2> force;
         if (!has_varying_force)
           return force;
-        const double density_here = density(mesh.region(element));
-        force                     = body_force(x, density_here) - force_at_tip;
+        const Material &here =
+          problem.materials[region_to_material[mesh.region(element)]];
+        force = body_force(x, here) - force_at_tip;
         if (loading.acceleration)
-          force -= density_here * in_frame(loading.acceleration(element, xi));
+          force -= here.density * in_frame(loading.acceleration(element, xi));
         return force;
       }
 

@@ -62,6 +62,14 @@ namespace NMM
           ? "an incompressible material has no finite stiffness in plane "
             "strain; give a number above -1 and below 0.5, e.g. 0.499"
           : "give a number above -1 and below 0.5"));
+    AssertThrow(!wet_density ||
+                  (std::isfinite(*wet_density) && *wet_density >= density),
+                InputError(parameter_message("Wet density",
+                                             wet_density.value_or(0.),
+                                             "kg/m^3"),
+                           where,
+                           "give at least the density, since water adds to "
+                           "it"));
     AssertThrow(std::isfinite(density) && density >= 0.,
                 InputError(parameter_message("Density", density, "kg/m^3"),
                            where,
@@ -157,6 +165,18 @@ namespace NMM
   Material::has_initial_stress() const
   {
     return varying_initial_stress != nullptr || initial_stress.norm() > 0.;
+  }
+
+
+  dealii::Tensor<1, 2>
+  Material::weight_at(const dealii::Point<2>     &x,
+                      const dealii::Tensor<1, 2> &gravity) const
+  {
+    dealii::Tensor<1, 2> result = density * gravity;
+    if (body_force)
+      for (unsigned int c = 0; c < 2; ++c)
+        result[c] += body_force->value(x, c);
+    return result;
   }
 
 

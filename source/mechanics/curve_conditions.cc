@@ -33,7 +33,7 @@ namespace NMM
         physical_mesh.curves().size());
       for (unsigned int c = 0; c < problem.boundary_conditions.size(); ++c)
         for (const unsigned int curve :
-             physical_mesh.find_curves(problem.boundary_conditions[c].curve))
+             problem.boundary_conditions[c].curves_in(physical_mesh))
           curve_to_conditions[curve].push_back(c);
 
       for (unsigned int e = 0; e < mesh.n_elements(); ++e)

@@ -147,10 +147,9 @@ namespace NMM
                              "resolve its crack tip by a graded mesh "
                              "instead"));
       DiskCover::Loads loads;
-      loads.initial_stress              = material.initial_stress;
-      const dealii::Tensor<1, 2> weight = material.density * problem->gravity;
-      loads.body_force                  = [&](const dealii::Point<2> &x) {
-        dealii::Tensor<1, 2> force = weight;
+      loads.initial_stress = material.initial_stress;
+      loads.body_force     = [&](const dealii::Point<2> &x) {
+        dealii::Tensor<1, 2> force = material.weight_at(x, problem->gravity);
         if (problem->body_force != nullptr)
           for (unsigned int c = 0; c < 2; ++c)
             force[c] += problem->body_force->value(x, c);

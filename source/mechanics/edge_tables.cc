@@ -182,7 +182,8 @@ namespace NMM
       , degree(covers.manifold_mesh().mathematical_mesh().degree())
       , n_per_cell(WeightFunctions::n_per_cell(degree))
     {
-      if (problem.body_force != nullptr || problem.gravity.norm() > 0.)
+      if (problem.body_force != nullptr || problem.gravity.norm() > 0. ||
+          problem.has_forces_of_materials())
         add_volume_loads(quadrature);
       add_tractions(conditions);
       add_point_forces(points.point_force_elements());
@@ -196,7 +197,8 @@ namespace NMM
       const MathematicalMesh &mathematical_mesh = mesh.mathematical_mesh();
       const auto              region_to_material =
         problem->region_to_material(mesh.physical_mesh());
-      const bool has_gravity = problem->gravity.norm() > 0.;
+      const bool has_gravity =
+        problem->gravity.norm() > 0. || problem->has_forces_of_materials();
 
       Collector gravity_load(has_gravity ? covers->n_covers() : 0),
         other_load(problem->body_force != nullptr ? covers->n_covers() : 0);
@@ -207,18 +209,20 @@ namespace NMM
         const unsigned int cell = mesh.cell(e);
         const double       det =
           dealii::determinant(mathematical_mesh.jacobian(cell));
-        const dealii::Tensor<1, 2> weight =
-          problem->materials[region_to_material[mesh.region(e)]].density *
-          problem->gravity;
+        const Material &material =
+          problem->materials[region_to_material[mesh.region(e)]];
         const dealii::Quadrature<2> &rule = quadrature.rule(e);
         for (unsigned int q = 0; q < rule.size(); ++q)
         {
           WeightFunctions::values(degree, rule.point(q), w);
+          const dealii::Point<2> x =
+            mathematical_mesh.reference_to_real(cell, rule.point(q));
+          const dealii::Tensor<1, 2> weight =
+            material.weight_at(x, problem->gravity);
           dealii::Tensor<1, 2> f;
           if (problem->body_force != nullptr)
             for (unsigned int c = 0; c < 2; ++c)
-              f[c] = problem->body_force->value(
-                mathematical_mesh.reference_to_real(cell, rule.point(q)), c);
+              f[c] = problem->body_force->value(x, c);
           for (unsigned int i = 0; i < n_per_cell; ++i)
           {
             const unsigned int k      = covers->covers(e)[i];

@@ -32,11 +32,12 @@ namespace NMM
 
 
     void
-    check_condition(const BoundaryCondition &condition,
-                    const PhysicalMesh      &mesh)
+    check_curve(const BoundaryCondition &condition,
+                const std::string       &name,
+                const PhysicalMesh      &mesh)
     {
       const std::string where = "boundary condition \"" + condition.name + "\"";
-      const unsigned int curve = mesh.find_curve(condition.curve);
+      const unsigned int curve = mesh.find_curve(name);
 
       std::vector<std::string> boundaries;
       for (const Curve &c : mesh.curves())
@@ -44,7 +45,7 @@ namespace NMM
           boundaries.push_back(c.name);
 
       AssertThrow(curve != invalid_index,
-                  InputError("There is no curve \"" + condition.curve + "\"",
+                  InputError("There is no curve \"" + name + "\"",
                              where,
                              "name one of the boundary curves " +
                                list_of_names(boundaries)));
@@ -52,9 +53,9 @@ namespace NMM
       if (role == CurveRole::joint && condition.is_pressure())
       {
         // only open joints have faces
-        for (const unsigned int c : mesh.find_curves(condition.curve))
+        for (const unsigned int c : mesh.find_curves(name))
           AssertThrow(mesh.curves()[c].state == JointState::open,
-                      InputError("Joint \"" + condition.curve +
+                      InputError("Joint \"" + name +
                                    "\" is closed and has no faces that a "
                                    "pressure could act on",
                                  where,
@@ -63,7 +64,7 @@ namespace NMM
       else
       {
         AssertThrow(role == CurveRole::boundary || role == CurveRole::hole,
-                    InputError("Curve \"" + condition.curve +
+                    InputError("Curve \"" + name +
                                  "\" is no boundary of the solid",
                                where,
                                "name one of the boundary curves " +
@@ -71,6 +72,19 @@ namespace NMM
                                  ", or prescribe a pressure if it is a "
                                  "joint"));
       }
+    }
+
+
+    void
+    check_condition(const BoundaryCondition &condition,
+                    const PhysicalMesh      &mesh)
+    {
+      const std::string where = "boundary condition \"" + condition.name + "\"";
+      if (!condition.curves)
+        check_curve(condition, condition.curve, mesh);
+      else
+        for (const std::string &name : *condition.curves)
+          check_curve(condition, name, mesh);
 
       const unsigned int n_components = n_value_components(condition.type);
       AssertThrow(condition.value == nullptr ||
@@ -109,6 +123,20 @@ namespace NMM
                                to_string(box.second)));
     }
   } // namespace
+
+
+  std::vector<unsigned int>
+  BoundaryCondition::curves_in(const PhysicalMesh &mesh) const
+  {
+    if (!curves)
+      return mesh.find_curves(curve);
+    const std::set<std::string> names(curves->begin(), curves->end());
+    std::vector<unsigned int>   result;
+    for (unsigned int c = 0; c < mesh.curves().size(); ++c)
+      if (names.count(mesh.curves()[c].name) > 0)
+        result.push_back(c);
+    return result;
+  }
 
 
   std::vector<unsigned int>
@@ -159,6 +187,17 @@ namespace NMM
                        materials.end(),
                        [](const Material &material) {
                          return material.varying_initial_stress != nullptr;
+                       });
+  }
+
+
+  bool
+  ElasticityProblem::has_forces_of_materials() const
+  {
+    return std::any_of(materials.begin(),
+                       materials.end(),
+                       [](const Material &material) {
+                         return material.body_force != nullptr;
                        });
   }
 

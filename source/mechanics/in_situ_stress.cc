@@ -1,9 +1,11 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/covers/point_location.h>
 #include <nmm/mechanics/in_situ_stress.h>
+#include <nmm/mechanics/water.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <sstream>
 #include <utility>
@@ -14,25 +16,6 @@ namespace NMM
 
   namespace
   {
-    /// The elevation of a line by points of ascending x, which is level beyond its ends [m].
-    double
-    elevation(const std::vector<Point<2>> &line, const double x)
-    {
-      if (x <= line.front()[0])
-        return line.front()[1];
-      if (x >= line.back()[0])
-        return line.back()[1];
-      const auto     right = std::upper_bound(line.begin(),
-                                          line.end(),
-                                          x,
-                                          [](const double a, const auto &p) {
-                                            return a < p[0];
-                                          });
-      const Point<2> a = *(right - 1), b = *right;
-      return a[1] + (b[1] - a[1]) * ((x - a[0]) / (b[0] - a[0]));
-    }
-
-
     /**
      * The weight on verticals through a solid. The boundary of each region contributes its edges with
      * the sign of the side on which the region lies. Along a vertical from above, the unit weight at a
@@ -87,7 +70,8 @@ namespace NMM
       std::vector<std::pair<double, double>>
       crossings(double x) const;
 
-      std::vector<Point<2>>                  ground;
+      /// Elevation of the ground line [m]; empty: there is none.
+      std::function<double(double)>          ground;
       double                                 weight_above;
       double                                 largest_weight = 0.;
       double                                 least, largest;
@@ -113,7 +97,9 @@ namespace NMM
     Overburden::Overburden(const InSituStress      &stress,
                            const ManifoldMesh      &mesh,
                            const ElasticityProblem &problem)
-      : ground(stress.ground_line)
+      : ground(stress.ground_line.empty()
+                 ? std::function<double(double)>()
+                 : line_by_points(stress.ground_line, "the ground line"))
       , weight_above(stress.unit_weight_above)
       , least(std::numeric_limits<double>::max())
       , largest(std::numeric_limits<double>::lowest())
@@ -223,9 +209,8 @@ namespace NMM
       const auto   on_vertical =
         crossings(std::min(std::max(x[0], least + margin), largest - margin));
       const double top =
-        ground.empty()
-          ? (on_vertical.empty() ? x[1] : on_vertical.front().first)
-          : elevation(ground, x[0]);
+        ground ? ground(x[0])
+               : (on_vertical.empty() ? x[1] : on_vertical.front().first);
       double weight = 0., filled = weight_above, from = top, sum = 0.;
       for (const auto &[y, change] : on_vertical)
       {
@@ -305,12 +290,8 @@ namespace NMM
                            "ground line up to which it reaches",
                            where,
                            "give the ground line"));
-    for (std::size_t i = 1; i < ground_line.size(); ++i)
-      AssertThrow(ground_line[i - 1][0] < ground_line[i][0],
-                  InputError("the ground line goes back or is vertical at " +
-                               to_string(ground_line[i]),
-                             where,
-                             "give points of ascending x"));
+    if (!ground_line.empty())
+      line_by_points(ground_line, "the ground line");
   }
 
 

@@ -27,7 +27,8 @@ namespace NMM
       {C::growth, "cracks that grow", "Fracture/Increments"},
       {C::no_growth, "cracks that do not grow", ""},
       {C::one_state,
-       "small kinematics without contact, bolts and a material that yields",
+       "small kinematics without contact, bolts, flow in joints and a material "
+       "that yields",
        ""},
       {C::small_kinematics, "small kinematics", "Model/Kinematics = small"},
       {C::finite_kinematics, "finite kinematics", "Model/Kinematics = finite"},
@@ -43,6 +44,11 @@ namespace NMM
        "Materials/.../Initial stress"},
       {C::in_situ_stress, "in-situ stress", "In-situ stress/Type = K0"},
       {C::bolts, "bolts", "Bolts/Names"},
+      {C::water, "water", "Water/Table"},
+      {C::pores, "water in pores", "Water/Pores = true"},
+      {C::joint_flow,
+       "water that flows in joints",
+       "Water/Joint pressure = network"},
       {C::contact, "contact", "Contact/Enforcement = penalty"},
       {C::no_contact, "a scene without contact", ""},
       {C::augmented_lagrangian,
@@ -217,6 +223,10 @@ namespace NMM
           p.output.fields_every > 0,
           std::to_string(p.output.fields_every));
       add(C::bolts, !p.bolts.empty());
+      add(C::water, p.water.is_present());
+      add(C::pores, p.water.fills_pores);
+      add(C::joint_flow,
+          p.water.joint_pressure == WaterParameters::JointPressure::network);
       add(C::several_ranks, n_ranks > 1);
     }
 
@@ -371,6 +381,7 @@ namespace NMM
                                                    C::contact,
                                                    C::yielding,
                                                    C::bolts,
+                                                   C::joint_flow,
                                                    C::stages};
 
     const char *const become_dynamic =
@@ -482,6 +493,25 @@ namespace NMM
        "factor does not apply to initial stress",
        "remove it, or 'Fracture/Increments', or set 'Model/Analysis' to "
        "dynamic or relaxation"},
+      {{{C::water}, {C::in_situ_stress}},
+       "it has not been built: the stress of the weight does not know water, "
+       "neither its pressure nor wet densities",
+       "give the effective stress as 'Initial stress' of materials, or let "
+       "gravity settle the solid in load steps"},
+      {{{C::joint_flow}, {C::no_contact}},
+       "faces that do not touch have no aperture that stress decides",
+       "set 'Contact/Enforcement = penalty', or give the pressure"},
+      {{{C::joint_flow}, {C::pores}},
+       "it has not been built: no water is exchanged between joints and pores",
+       "set 'Joint pressure = table', or 'Pores = false'"},
+      {{{C::joint_flow}, {C::finite_kinematics}},
+       "it has not been built: apertures are those of faces that were opposite "
+       "in the drawing, and pressures act along the normals there",
+       "set 'Model/Kinematics = small', or give the pressure"},
+      {{{C::joint_flow}, {C::growth}},
+       "it has not been built: the network is that of the joints in the "
+       "drawing",
+       "set 'Joint pressure' to table or given"},
       {{{C::bolts}, {C::growth}},
        "it has not been built: what bolts remember is not carried over to the "
        "solid that is cut again",

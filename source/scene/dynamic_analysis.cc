@@ -93,6 +93,10 @@ namespace NMM
       bolts       = SceneBolts::make(scene);
       if (bolts)
         how.further_terms = {bolts->maker()};
+      joint_water = SceneJointWater::make(scene);
+      if (joint_water)
+        how.further_terms.push_back(
+          joint_water->maker(/* is_at_rest = */ false));
       motion = std::make_unique<Motion>(*solid,
                                         problem,
                                         std::move(how),

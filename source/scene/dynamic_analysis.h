@@ -11,6 +11,7 @@
 #include <scene/bolts.h>
 #include <scene/cut_notice.h>
 #include <scene/growth_in_motion.h>
+#include <scene/joint_water.h>
 #include <scene/probe_history.h>
 #include <scene/scene_analysis.h>
 #include <scene/static_start.h>
@@ -70,7 +71,9 @@ namespace NMM
 
       /// Null without bolts.
       std::unique_ptr<SceneBolts> bolts;
-      std::unique_ptr<Motion>     motion;
+      /// Null unless water flows in joints.
+      std::unique_ptr<SceneJointWater> joint_water;
+      std::unique_ptr<Motion>          motion;
       /// The damping, with the coefficients that Scene::make_damping() chooses.
       RayleighDamping damping;
       /// Null if no block may leave the scene.

@@ -362,6 +362,12 @@ namespace NMM
         for (const std::string &line : bolts->description())
           progress.message("  " + line);
       }
+      if (joint_water)
+      {
+        joint_water->add_to(summary);
+        if (is_first_rank())
+          joint_water->write(*directory);
+      }
       if (crack_tips)
         crack_tips->add_to(summary);
       if (growth)

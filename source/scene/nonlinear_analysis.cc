@@ -31,6 +31,10 @@ namespace NMM
       bolts          = SceneBolts::make(scene);
       if (bolts)
         how.further_terms = {bolts->maker()};
+      joint_water = SceneJointWater::make(scene);
+      if (joint_water)
+        how.further_terms.push_back(
+          joint_water->maker(/* is_at_rest = */ true));
       try
       {
         equilibrium =
@@ -123,17 +127,46 @@ namespace NMM
             add_step(step, u);
           },
           [this](const unsigned int i) {
+            repeat_until_flow_agrees();
             progress.message("    " + describe_stage(scene, i));
             removed_blocks.insert(removed_blocks.end(),
                                   stages[i].removed_blocks.begin(),
                                   stages[i].removed_blocks.end());
           });
+        repeat_until_flow_agrees();
       }
       catch (const NumericalFailure &)
       {
         n_last_cuts       = equilibrium->last_attempt().n_cuts;
         n_last_iterations = equilibrium->last_attempt().n_lost_iterations;
         throw;
+      }
+    }
+
+
+    void
+    NonlinearAnalysis::repeat_until_flow_agrees()
+    {
+      constexpr unsigned int max_repetitions = 100;
+      LoadSteps              again;
+      again.leaves_out_reached = false;
+      again.load_factors       = {equilibrium->load_factor()};
+      for (unsigned int i = 0; joint_water && !joint_water->agrees(); ++i)
+      {
+        AssertThrow(i < max_repetitions,
+                    NumericalFailure("The flow in joints and their apertures "
+                                     "do not agree after " +
+                                       std::to_string(i) + " repetitions: " +
+                                       joint_water->progress(),
+                                     "load factor " +
+                                       to_text(equilibrium->load_factor()),
+                                     "choose a higher 'Contact/Normal "
+                                     "stiffness', or a higher "
+                                     "'Water/Residual aperture'"));
+        equilibrium->run(again,
+                         [this](const ContactStep &step, const Vector &u) {
+                           add_step(step, u);
+                         });
       }
     }
 
@@ -236,6 +269,8 @@ namespace NMM
         line << "; " << contact->progress();
       if (bolts)
         line << "; " << bolts->progress();
+      if (joint_water)
+        line << "; " << joint_water->progress();
       progress.message(line.str());
 
       last_solution = solution;
@@ -335,6 +370,8 @@ namespace NMM
         contact->add_to_summary(summary);
       if (bolts)
         bolts->add_to(summary);
+      if (joint_water)
+        joint_water->add_to(summary);
       if (crack_tips)
         crack_tips->add_to(summary);
     }
@@ -385,6 +422,8 @@ namespace NMM
                               [&](std::ostream &out) { write_history(out); });
       if (is_first_rank() && bolts)
         bolts->write(*directory);
+      if (is_first_rank() && joint_water)
+        joint_water->write(*directory);
     }
 
 

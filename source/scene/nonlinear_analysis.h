@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <scene/bolts.h>
+#include <scene/joint_water.h>
 #include <scene/scene_analysis.h>
 #include <string>
 #include <utility>
@@ -66,6 +67,8 @@ namespace NMM
 
       /// Null without bolts.
       std::unique_ptr<SceneBolts> bolts;
+      /// Null unless water flows in joints.
+      std::unique_ptr<SceneJointWater> joint_water;
       /// Null if a block floats.
       std::unique_ptr<Equilibrium> equilibrium;
       /// The failure to set up equations, since a block floats. It is not an input error, so
@@ -101,6 +104,11 @@ namespace NMM
       /// Takes the steps of the first equilibrium and of all stages.
       void
       run_stages();
+
+      /// Repeats the last load step until the flow in joints and their apertures agree. @throws
+      /// NumericalFailure if they do not.
+      void
+      repeat_until_flow_agrees();
 
       /// "load factor 1.5", with the name of the stage.
       std::string

@@ -229,6 +229,30 @@ namespace NMM
     }
 
 
+    std::vector<dealii::Point<2>>
+    read_line(const std::string &text, const std::string &parameter)
+    {
+      std::vector<dealii::Point<2>> result;
+      for (const std::string &part :
+           dealii::Utilities::split_string_list(text, ','))
+      {
+        std::istringstream  words(part);
+        std::vector<double> numbers;
+        for (double number; words >> number;)
+          numbers.push_back(number);
+        const bool is_level = numbers.size() == 1 && part == text;
+        AssertThrow(words.eof() && (numbers.size() == 2 || is_level),
+                    InputError("'" + part + "' is no point of a line",
+                               "parameter '" + parameter + "'",
+                               "give one elevation, or points 'x y, x y' from "
+                               "left to right"));
+        result.push_back(is_level ? dealii::Point<2>(0., numbers[0])
+                                  : dealii::Point<2>(numbers[0], numbers[1]));
+      }
+      return result;
+    }
+
+
     void
     expect_default(const std::string &section,
                    const std::string &key,

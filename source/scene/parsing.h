@@ -266,6 +266,11 @@ namespace NMM
     };
 
 
+    /// Reads one elevation, or points "x y" of a line separated by commas. @throws InputError.
+    std::vector<dealii::Point<2>>
+    read_line(const std::string &text, const std::string &parameter);
+
+
     /// Checks that a value that is not used has its default. @throws UnusedValue otherwise, saying
     /// that @p by makes no use of it.
     void

@@ -6,8 +6,8 @@
 #include <analysis/mechanism.h>
 #include <cmath>
 #include <iomanip>
-#include <scene/bolts.h>
 #include <scene/current_stress.h>
+#include <scene/joint_water.h>
 #include <scene/safety_factor_analysis.h>
 #include <scene/static_start.h>
 #include <sstream>
@@ -58,8 +58,7 @@ namespace NMM
                                           /* has_contact = */ true);
       how.contact_update    = update_in_relaxation(how.scheme);
       how.newton            = motion_newton_parameters(scene, progress);
-      how.further_terms =
-        SceneBolts::makers(scene, SceneBolts::Installed::before);
+      how.further_terms     = further_terms(scene, false);
       reduction             = std::make_unique<StrengthReduction>(*solid,
                                                       problem,
                                                       std::move(parameters),

@@ -78,6 +78,7 @@ namespace NMM
       Stage stage(progress, "geometry");
       physical_mesh = std::make_unique<PhysicalMesh>(Geometry(geometry));
       problem       = scene.make_problem();
+      scene.add_water(*physical_mesh, problem);
       problem.check(*physical_mesh);
       check_problem();
       check_loads_on_cracks();
@@ -101,8 +102,7 @@ namespace NMM
         return;
       // Intensity factors are computed as seen by an observer who turns with the material.
       for (const BoundaryCondition &condition : problem.boundary_conditions)
-        for (const unsigned int curve :
-             physical_mesh->find_curves(condition.curve))
+        for (const unsigned int curve : condition.curves_in(*physical_mesh))
           AssertThrow(
             physical_mesh->curves()[curve].role != CurveRole::joint ||
               condition.type == BoundaryCondition::Type::follower_pressure,
@@ -223,7 +223,8 @@ namespace NMM
         {scene_parameters.model.kinematics == Kinematics::finite ? 4 * p - 4
                                                                  : 2 * p - 2,
          p,
-         problem.body_force || problem.has_varying_initial_stress() ||
+         problem.body_force || problem.has_forces_of_materials() ||
+             problem.has_varying_initial_stress() ||
              scene_parameters.in_situ_stress.is_present
            ? 2 * p
            : 0});

@@ -143,7 +143,8 @@ namespace NMM
   Scene::make_loading() const
   {
     const Loading              loading = loads_in_time();
-    internal::StagedConditions stages(scene_parameters);
+    internal::StagedConditions stages(scene_parameters,
+                                      n_conditions_of_a_table());
     bool                       has_changes = false;
     for (const StageParameters &stage : scene_parameters.stages)
       has_changes = stages.begin(stage) || has_changes;
@@ -219,6 +220,8 @@ namespace NMM
           functions->n_fixed_points,
           1,
           point.point.displacement.norm_square() > 0.);
+    // Water does not change in time.
+    functions->n_conditions += make_water().size() * n_conditions_of_a_table();
     functions->gravity =
       make(p.model.gravity_amplitude, "Model/Gravity amplitude");
     functions->body_force =
@@ -280,7 +283,9 @@ namespace NMM
     const Loading loading = loads_in_time();
     return product(loading.amplitudes ? loading.amplitudes(0.)
                                       : LoadAmplitudes(),
-                   internal::StagedConditions(scene_parameters).amplitudes());
+                   internal::StagedConditions(scene_parameters,
+                                              n_conditions_of_a_table())
+                     .amplitudes());
   }
 
 
@@ -292,7 +297,8 @@ namespace NMM
     const Loading            in_time = loads_in_time();
     const LoadAmplitudes     at_start =
       in_time.amplitudes ? in_time.amplitudes(0.) : LoadAmplitudes();
-    internal::StagedConditions conditions(scene_parameters);
+    internal::StagedConditions conditions(scene_parameters,
+                                          n_conditions_of_a_table());
     for (const StageParameters &stage : scene_parameters.stages)
     {
       const auto &names = stage.removed_regions;

@@ -335,7 +335,8 @@ namespace NMM
   SceneParameters::is_nonlinear() const
   {
     return contact.is_present() || has_inelastic_material() ||
-           !stages.empty() || !bolts.empty();
+           !stages.empty() || !bolts.empty() ||
+           water.joint_pressure == WaterParameters::JointPressure::network;
   }
 
 
@@ -382,6 +383,7 @@ namespace NMM
     check_fracture();
     check_stages();
     check_bolts();
+    check_water();
   }
 
 

@@ -119,31 +119,6 @@ namespace NMM
     }
 
 
-    /// Reads one elevation, or points "x y" separated by commas. @throws InputError.
-    std::vector<dealii::Point<2>>
-    read_line(const std::string &text, const std::string &parameter)
-    {
-      std::vector<dealii::Point<2>> result;
-      for (const std::string &part :
-           dealii::Utilities::split_string_list(text, ','))
-      {
-        std::istringstream  words(part);
-        std::vector<double> numbers;
-        for (double number; words >> number;)
-          numbers.push_back(number);
-        const bool is_level = numbers.size() == 1 && part == text;
-        AssertThrow(words.eof() && (numbers.size() == 2 || is_level),
-                    InputError("'" + part + "' is no point of a line",
-                               "parameter '" + parameter + "'",
-                               "give one elevation, or points 'x y, x y' from "
-                               "left to right"));
-        result.push_back(is_level ? dealii::Point<2>(0., numbers[0])
-                                  : dealii::Point<2>(numbers[0], numbers[1]));
-      }
-      return result;
-    }
-
-
     std::string
     text_of(const std::vector<dealii::Point<2>> &line)
     {
@@ -189,6 +164,11 @@ namespace NMM
                 material.density,
                 Patterns::Double(0),
                 "rho, the mass per volume that gravity acts on [kg/m^3].");
+    std::string wet_density = text_of(material.wet_density);
+    entries.add("Wet density",
+                wet_density,
+                "Mass per volume below a water table, where it counts for the "
+                "weight instead of 'Density' [kg/m^3]. Empty: the same.");
     entries.add("Toughness",
                 material.toughness,
                 Patterns::Double(0),
@@ -223,6 +203,8 @@ namespace NMM
       return "parameter 'Materials/" + material.name + "/" + key + "'";
     });
     material.law = material_law_entries().make(law_name, values);
+    material.wet_density =
+      read_optional(wet_density, "Materials/" + material.name + "/Wet density");
     read_initial_stress(initial_stress, material);
   }
 

@@ -285,6 +285,7 @@ namespace NMM
       names.bolts,
       bolts,
       "Names of the bolts and anchors, each with a subsection of its own.");
+    entries.section("Water", &water);
     entries.section("Contact", [&]() {
       contact.list_entries(entries, names.contact_laws);
     });

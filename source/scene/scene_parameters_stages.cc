@@ -28,6 +28,11 @@ namespace NMM
                 installed,
                 "Names of bolts that are installed at the beginning of the "
                 "stage, without force but their pretension.");
+    entries.add("Water table",
+                water_table,
+                "Table of water at the end of the stage, as 'Water/Table': "
+                "pressures change to it with the load factor. Empty: it "
+                "stays.");
     entries.add(
       "Relaxation",
       relaxation,

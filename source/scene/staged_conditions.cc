@@ -6,30 +6,48 @@ namespace NMM
 {
   namespace internal
   {
-    StagedConditions::StagedConditions(const SceneParameters &parameters)
-      : parameters(parameters)
+    namespace
     {
-      const bool changes_any =
-        std::any_of(parameters.stages.begin(),
-                    parameters.stages.end(),
-                    [](const StageParameters &stage) {
-                      return !stage.added_conditions.empty() ||
-                             !stage.removed_conditions.empty();
-                    });
-      if (!changes_any)
+      bool
+      changes_conditions(const StageParameters &stage)
+      {
+        return !stage.added_conditions.empty() ||
+               !stage.removed_conditions.empty() || !stage.water_table.empty();
+      }
+    } // namespace
+
+
+    StagedConditions::StagedConditions(const SceneParameters &parameters,
+                                       const unsigned int     n_of_a_table)
+      : parameters(parameters)
+      , n_of_a_table(n_of_a_table)
+    {
+      const auto &stages = parameters.stages;
+      if (std::none_of(stages.begin(), stages.end(), changes_conditions))
         return;
       std::size_t n_conditions = 0;
       for (const BoundaryConditionParameters &one :
            parameters.boundary_conditions)
         n_conditions += one.boundaries.size();
+      present_table = n_conditions;
+      n_conditions +=
+        n_of_a_table * (1 + std::count_if(stages.begin(),
+                                          stages.end(),
+                                          [](const StageParameters &stage) {
+                                            return !stage.water_table.empty();
+                                          }));
       current.boundary_conditions.assign(n_conditions, 1.);
       current.released_conditions.assign(n_conditions, false);
       current.point_forces.assign(parameters.point_forces.size(), 1.);
       current.fixed_points.assign(parameters.fixed_points.size(), 1.);
       current.released_fixed_points.assign(parameters.fixed_points.size(),
                                            false);
+      std::fill(current.boundary_conditions.begin() + present_table,
+                current.boundary_conditions.end(),
+                0.);
+      set_table(true);
       std::set<std::string> mentioned;
-      for (const StageParameters &stage : parameters.stages)
+      for (const StageParameters &stage : stages)
       {
         for (const std::string &name : stage.added_conditions)
           if (mentioned.insert(name).second)
@@ -47,8 +65,21 @@ namespace NMM
         set(name, true);
       for (const std::string &name : stage.removed_conditions)
         set(name, false);
-      return !stage.added_conditions.empty() ||
-             !stage.removed_conditions.empty();
+      if (!stage.water_table.empty())
+      {
+        set_table(false);
+        present_table += n_of_a_table;
+        set_table(true);
+      }
+      return changes_conditions(stage);
+    }
+
+
+    void
+    StagedConditions::set_table(const bool acts)
+    {
+      for (unsigned int i = 0; i < n_of_a_table; ++i)
+        current.boundary_conditions[present_table + i] = acts ? 1. : 0.;
     }
 
 

@@ -11,12 +11,14 @@ namespace NMM
   namespace internal
   {
     /// The loads and supports that act in the stages of a scene, in the order of
-    /// Scene::make_problem().
+    /// Scene::make_problem() and, after that, Scene::add_water().
     class StagedConditions
     {
     public:
-      /// Those before the first stage: all but the loads that a stage adds before any removes them.
-      explicit StagedConditions(const SceneParameters &parameters);
+      /// Those before the first stage: all but the loads that a stage adds before any removes them,
+      /// and of the tables of water, each of which acts by @p n_of_a_table conditions, the first one.
+      StagedConditions(const SceneParameters &parameters,
+                       unsigned int           n_of_a_table);
 
       /// Makes the changes of a stage. Returns whether there are any.
       bool
@@ -32,7 +34,14 @@ namespace NMM
 
     private:
       const SceneParameters &parameters;
+      unsigned int           n_of_a_table;
       LoadAmplitudes         current;
+      /// Where the conditions of the table that acts begin.
+      std::size_t present_table = 0;
+
+      /// Lets the table of water that acts now do so, or not any more.
+      void
+      set_table(bool acts);
 
       /// Lets the load @p name act, or the load or support no longer.
       void

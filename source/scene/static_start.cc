@@ -6,8 +6,8 @@
 #include <analysis/mechanism.h>
 #include <iomanip>
 #include <memory>
-#include <scene/bolts.h>
 #include <scene/cut_notice.h>
+#include <scene/joint_water.h>
 #include <scene/static_start.h>
 #include <sstream>
 #include <utility>
@@ -44,8 +44,7 @@ namespace NMM
         how.kinematics = parameters.model.kinematics;
         how.full       = input.scene.loads_before_stages();
         how.newton = show_iterations(parameters.newton.newton, input.progress);
-        how.further_terms =
-          SceneBolts::makers(input.scene, SceneBolts::Installed::in_stages);
+        how.further_terms = further_terms(input.scene, true);
         Equilibrium equilibrium(input.solid, input.problem, how, input.contact);
         LoadSteps   steps = parameters.load_steps.load_steps();
         // One linear problem needs no steps.
@@ -176,8 +175,7 @@ namespace NMM
         result.contact_update     = ContactUpdate::every_step;
         result.is_accounted       = false;
         result.newton = motion_newton_parameters(input.scene, input.progress);
-        result.further_terms =
-          SceneBolts::makers(input.scene, SceneBolts::Installed::before);
+        result.further_terms = further_terms(input.scene, false);
         return result;
       }
     } // namespace

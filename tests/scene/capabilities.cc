@@ -56,6 +56,14 @@ namespace
        "Bolts/bar/Young's modulus=1",
        "Bolts/bar/Area=1",
        "Bolts/bar/Bond stiffness=1"}}},
+    {C::water, {{}, {"Water/Table=0.5"}}},
+    {C::pores, {{C::water}, {"Water/Pores=true"}}},
+    {C::joint_flow,
+     {{C::water},
+      {"Water/Joint pressure=network",
+       "Water/Aperture=1e-4",
+       "Water/Residual aperture=1e-5",
+       "Water/Largest aperture=1e-3"}}},
     {C::contact,
      {{}, {"Contact/Enforcement=penalty", "Contact/Friction angle=30"}}},
     {C::augmented_lagrangian,
@@ -142,7 +150,7 @@ namespace
       add_if(!has(C::dynamics), C::scheme_without_dashpots);
       add_if(has(C::statics) && !has(C::finite_kinematics) &&
                !has(C::contact) && !has(C::yielding) && !has(C::stages) &&
-               !has(C::bolts) && !has(C::growth),
+               !has(C::bolts) && !has(C::joint_flow) && !has(C::growth),
              C::one_state);
       return result;
     }

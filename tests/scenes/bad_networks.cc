@@ -99,6 +99,39 @@ namespace
   }
 
 
+  TEST(BadInput, Water)
+  {
+    expect_rejected_override("Water/Table=0 1, 0 2",
+                             {"vertical", "Water/Table"});
+    expect_rejected_override("Water/Table=0 1 2, 3 4",
+                             {"0 1 2", "Water/Table"});
+    expect_rejected_override("Water/Table=1 +* x", {"Water/Table"});
+    expect_rejected_override("Water/Joint pressure=given",
+                             {"Water/Given joint pressure", "expression"});
+    expect_rejected_override("Water/Pores=true", {"Water/Pores", "Table"});
+    expect_rejected_override("Water/Joint pressure=network",
+                             {"Water/Joint pressure", "Table"});
+    expect_rejected_override("Materials/rock/Wet density=2000",
+                             {"rock/Wet density", "Water/Table"});
+    const std::vector<std::string> wet = {"Water/Table=0.5"};
+    expect_rejected_with(wet, "Water/Faces=lid", {"'lid'", "boundaries"});
+    expect_rejected_with(wet,
+                         "Water/Aperture=1e-3",
+                         {"Water/Aperture", "network"});
+    expect_rejected_with({"Water/Table=0.5", "Water/Joint pressure=network"},
+                         "Water/Aperture=1e-3",
+                         {"residual aperture"});
+    expect_rejected_with({"Regions/Names=pit",
+                          "Regions/pit/Use=staged",
+                          "Stages/Names=one",
+                          "Regions/pit/Shape=POLYGON ((0.2 0.1, 0.4 0.1, 0.4 "
+                          "0.3, 0.2 0.3))",
+                          "Stages/one/Remove regions=pit"},
+                         "Stages/one/Water table=1",
+                         {"Stages/one/Water table", "Water/Table"});
+  }
+
+
   // A pipe would wait, and a device never ends.
   TEST(BadInput, FilesThatAreNoOrdinaryOnes)
   {

@@ -67,6 +67,12 @@ namespace NMM
     double poissons_ratio = std::numeric_limits<double>::signaling_NaN();
     /// Mass per volume rho [kg/m^3], >= 0.
     double density = 0.;
+    /// Mass per volume where pores are full of water [kg/m^3]; not given: the same as `density`. It
+    /// counts for the weight below a water table; the mass in motion is that of `density`.
+    std::optional<double> wet_density = std::nullopt;
+    /// Force f(x) per volume of this material beside its weight [N/m^3], two components, with the
+    /// amplitude of gravity. Null: none. See add_water().
+    std::shared_ptr<const dealii::Function<2>> body_force = nullptr;
     /// Fracture toughness K_c [Pa m^(1/2)]: a crack grows when its equivalent intensity factor
     /// reaches it. 0 stands for an unknown toughness.
     double toughness = 0.;
@@ -116,6 +122,12 @@ namespace NMM
     double
     initial_stress_zz_at(const dealii::Point<2> &x,
                          PlaneState              plane_state) const;
+
+    /// Weight under the acceleration @p gravity [m/s^2] and body force of the material at @p x
+    /// [N/m^3].
+    dealii::Tensor<1, 2>
+    weight_at(const dealii::Point<2>     &x,
+              const dealii::Tensor<1, 2> &gravity) const;
 
     /// The law for large deformations; never null. @throws InputError if the material's law has
     /// none.

@@ -8,6 +8,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@
  * | solid_term.h | the term of a solid, at rest or in motion, in both kinematics |
  * | spring_term.h | the term of springs between material points |
  * | bolt.h, bolt_term.h | the term of rock bolts and anchors |
+ * | water.h | the loads of water below a table, on faces, in joints and in pores |
  * | loading.h | loads, releases and base acceleration as functions of time |
  * | mass_matrix.h | consistent mass matrix |
  * | material_vector.h | positions of material points as functions of the unknowns |
@@ -102,6 +104,8 @@ namespace NMM
     /// Name of the curve of the physical mesh on which the condition holds: a boundary or a hole.
     /// A pressure may also act on an open joint, on both of its faces.
     std::string curve;
+    /// Names of any number of curves on which it holds, instead of `curve`.
+    std::optional<std::vector<std::string>> curves = std::nullopt;
     /// Kind of the condition.
     Type type = Type::traction;
     /// Value as a function of the reference position, with two components for traction and
@@ -109,6 +113,10 @@ namespace NMM
     std::shared_ptr<const dealii::Function<2>> value;
     /// Which components (x, y) a condition of type `displacement` prescribes.
     bool components[2] = {true, true};
+
+    /// Indices of the curves of @p mesh on which it holds.
+    std::vector<unsigned int>
+    curves_in(const PhysicalMesh &mesh) const;
 
     /// Whether the condition is a pressure of either type.
     bool
@@ -173,6 +181,10 @@ namespace NMM
     /// Whether the initial stress of any material varies within it.
     bool
     has_varying_initial_stress() const;
+
+    /// Whether any material has a body force of its own.
+    bool
+    has_forces_of_materials() const;
 
     /// Check that values are valid and that the problem fits @p mesh.
     /// @throws InputError naming the value, also for an unknown material, a region without one, a

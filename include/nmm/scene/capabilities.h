@@ -29,6 +29,9 @@ namespace NMM
     initial_stress,
     in_situ_stress,
     bolts,
+    water,
+    pores,
+    joint_flow,
     // Contact
     contact,
     no_contact,

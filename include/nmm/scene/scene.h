@@ -14,6 +14,7 @@
 #include <memory>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 /**
@@ -142,6 +143,12 @@ namespace NMM
     ElasticityProblem
     make_problem() const;
 
+    /// Adds the loads of water to those of @p problem, which make_problem() has made: those of the
+    /// first table, and of each table that a stage moves to. @throws InputError for an expression
+    /// that cannot be parsed, and for a face that @p mesh does not have.
+    void
+    add_water(const PhysicalMesh &mesh, ElasticityProblem &problem) const;
+
     /// The dependence of the problem's loads and conditions on time, after all stages. Its functions throw
     /// NumericalFailure where an expression has no value. @throws InputError
     /// for an expression that cannot be parsed or has no value at the start or
@@ -205,6 +212,14 @@ namespace NMM
     /// The dependence of loads and conditions on time, without what stages change.
     Loading
     loads_in_time() const;
+
+    /// The water of the first table, and of each table that a stage moves to.
+    std::vector<Water>
+    make_water() const;
+
+    /// Number of conditions by which the water of one table acts.
+    unsigned int
+    n_conditions_of_a_table() const;
 
     using TimeVector = std::function<dealii::Tensor<1, 2>(double)>;
 

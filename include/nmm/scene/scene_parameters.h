@@ -16,6 +16,7 @@
 #include <nmm/scene/scene_parameters_fracture.h>
 #include <nmm/scene/scene_parameters_geometry.h>
 #include <nmm/scene/scene_parameters_stages.h>
+#include <nmm/scene/scene_parameters_water.h>
 #include <nmm/solution/newton_solver.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -399,6 +400,8 @@ namespace NMM
     std::vector<FixedPointParameters> fixed_points;
     /// The subsections of `Bolts`.
     std::vector<BoltParameters> bolts;
+    /// The section `Water`.
+    WaterParameters water;
     /// The section `Contact`.
     ContactSectionParameters contact;
     /// The subsections of `Obstacles`.
@@ -474,6 +477,8 @@ namespace NMM
     check_stages() const;
     void
     check_bolts() const;
+    void
+    check_water() const;
     void
     check_output_quantities() const;
     void

@@ -22,6 +22,8 @@ namespace NMM
     std::vector<std::string> added_conditions, removed_conditions;
     /// Names of the bolts that are installed at the beginning of the stage.
     std::vector<std::string> installed;
+    /// The table of water at the end of the stage, see WaterParameters::table; empty: it stays.
+    std::string water_table;
     /// Share of the tractions on the walls of all regions, and of all supports, removed so far that is
     /// released at the end of the stage [-].
     double relaxation = 1.;

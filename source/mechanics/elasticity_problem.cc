@@ -54,7 +54,8 @@ namespace NMM
       {
         // only open joints have faces
         for (const unsigned int c : mesh.find_curves(name))
-          AssertThrow(mesh.curves()[c].state == JointState::open,
+          AssertThrow(condition.curves ||
+                        mesh.curves()[c].state == JointState::open,
                       InputError("Joint \"" + name +
                                    "\" is closed and has no faces that a "
                                    "pressure could act on",

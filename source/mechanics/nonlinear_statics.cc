@@ -257,11 +257,12 @@ namespace NMM
     std::vector<LoadStep> report;
     d.current          = LoadStep();
     const auto attempt = [&](LoadStep &step) {
-      // where loads turn round, what came before says nothing about the way on
+      // where loads turn round or stay, what came before says nothing about the way on
       const std::size_t n = d.states.size();
       if (n > 1 &&
-          (step.load_factor > d.states[n - 1].load_factor) !=
-            (d.states[n - 1].load_factor > d.states[n - 2].load_factor))
+          ((step.load_factor > d.states[n - 1].load_factor) !=
+             (d.states[n - 1].load_factor > d.states[n - 2].load_factor) ||
+           d.states[n - 1].load_factor == d.states[n - 2].load_factor))
         d.states.erase(d.states.begin(), d.states.end() - 1);
       Vector          u(d.states.back().solution);
       const StepFault fault = d.try_step(steps, step, u);

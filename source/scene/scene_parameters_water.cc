@@ -2,7 +2,6 @@
 #include <nmm/scene/scene_parameters.h>
 
 #include <algorithm>
-#include <cctype>
 #include <scene/expression.h>
 #include <scene/parsing.h>
 #include <tuple>
@@ -24,13 +23,12 @@ namespace NMM
       {"network", JointPressure::network}};
 
 
-    /// The elevation of a table: points, or an expression, which has a letter.
+    /// The elevation of a table: points, or an expression, which has an x or
+    /// parentheses.
     std::function<double(double)>
     parse_table(const std::string &text, const std::string &parameter)
     {
-      if (std::none_of(text.begin(), text.end(), [](const unsigned char c) {
-            return std::isalpha(c);
-          }))
+      if (text.find_first_of("x(") == std::string::npos)
         return line_by_points(read_line(text, parameter),
                               "parameter '" + parameter + "'");
       const auto function = parse_expressions<1>({text}, "x", parameter);

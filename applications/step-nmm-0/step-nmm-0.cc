@@ -1,9 +1,9 @@
 // step-nmm-0: a plate with a hole, with the weak form in sight.
 //
 // Who knows deal.II's step-8 finds the same program here: linear elasticity, assembled by
-// hand with FEValues. Two things differ: the triangles know nothing of the hole, so that the
-// loop runs over what the curves of the plate leave of them; and no node lies on a side, so
-// that displacements are prescribed in the weak form.
+// hand. Two things differ: the triangles know nothing of the hole, so that the loop runs over
+// what the curves of the plate leave of them, with ElementValues for FEValues; and no node lies
+// on a side, so that displacements are prescribed in the weak form.
 
 // @sect3{Include files}
 
@@ -11,12 +11,11 @@
 #include <nmm/mechanics/error_norms.h>
 #include <nmm/mechanics/stress_recovery.h>
 #include <nmm/output/output.h>
-#include <nmm/quadrature/element_quadrature.h>
+#include <nmm/quadrature/element_values.h>
+#include <nmm/quadrature/joint_values.h>
 
 #include <deal.II/base/convergence_table.h>
 #include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/fe_values.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/sparse_direct.h>
 #include <deal.II/lac/sparse_matrix.h>
@@ -88,60 +87,59 @@ namespace StepNMM0
 
   // What an element contributes, as in step-8.
   void
-  add_volume_terms(const FEValues<2>  &fe_values,
-                   FullMatrix<double> &cell_matrix)
+  add_volume_terms(const NMM::ElementValues &values,
+                   FullMatrix<double>       &element_matrix)
   {
     const FEValuesExtractors::Vector displacement(0);
-    for (const unsigned int q : fe_values.quadrature_point_indices())
-      for (const unsigned int i : fe_values.dof_indices())
-        for (const unsigned int j : fe_values.dof_indices())
-          cell_matrix(i, j) +=
-            stress_of(fe_values[displacement].symmetric_gradient(i, q)) *
-            fe_values[displacement].symmetric_gradient(j, q) * fe_values.JxW(q);
+    for (const unsigned int q : values.quadrature_point_indices())
+      for (const unsigned int i : values.dof_indices())
+        for (const unsigned int j : values.dof_indices())
+          element_matrix(i, j) +=
+            stress_of(values[displacement].symmetric_gradient(i, q)) *
+            values[displacement].symmetric_gradient(j, q) * values.JxW(q);
   }
 
 
-  // What a side with the outward normals $n$ contributes. On the left the displacement $g$ is given.
-  // As no node lies there, it is imposed by Nitsche's symmetric method,
+  // What an edge of an element on a side with the outward normals $n$ contributes. On the left the
+  // displacement $g$ is given. As no node lies there, it is imposed by Nitsche's symmetric method,
   // @f[ \int \beta\,u\cdot v - (\sigma(u)n)\cdot v - u\cdot(\sigma(v)n)
   //     = \int (\beta v - \sigma(v)n)\cdot g, @f]
   // where $\beta$ is some times the stiffness over the size of a triangle. On other sides the
   // traction is given.
   void
-  add_side_terms(const FEValues<2>   &fe_values,
-                 const NMM::EdgeRule &rule,
-                 const bool           is_left,
-                 FullMatrix<double>  &cell_matrix,
-                 Vector<double>      &cell_rhs)
+  add_side_terms(const NMM::EdgeValues &values,
+                 const double           cell_diameter,
+                 const bool             is_left,
+                 FullMatrix<double>    &element_matrix,
+                 Vector<double>        &element_rhs)
   {
     const FEValuesExtractors::Vector displacement(0);
     const auto traction_of = [&](const unsigned int i, const unsigned int q) {
-      return stress_of(fe_values[displacement].symmetric_gradient(i, q)) *
-             rule.normals[q];
+      return stress_of(values[displacement].symmetric_gradient(i, q)) *
+             values.normal(q);
     };
-    const double beta =
-      20. * (lambda + 2. * mu) / fe_values.get_cell()->diameter();
+    const double beta = 20. * (lambda + 2. * mu) / cell_diameter;
 
-    for (const unsigned int q : fe_values.quadrature_point_indices())
-      for (const unsigned int i : fe_values.dof_indices())
+    for (const unsigned int q : values.quadrature_point_indices())
+      for (const unsigned int i : values.dof_indices())
       {
-        const Point<2>    &x = fe_values.quadrature_point(q);
-        const Tensor<1, 2> v = fe_values[displacement].value(i, q);
+        const Point<2>    &x = values.quadrature_point(q);
+        const Tensor<1, 2> v = values[displacement].value(i, q);
         if (!is_left)
         {
-          cell_rhs(i) +=
-            exact_stress(x) * rule.normals[q] * v * rule.weights[q];
+          element_rhs(i) +=
+            exact_stress(x) * values.normal(q) * v * values.JxW(q);
           continue;
         }
-        for (const unsigned int j : fe_values.dof_indices())
+        for (const unsigned int j : values.dof_indices())
         {
-          const Tensor<1, 2> u = fe_values[displacement].value(j, q);
-          cell_matrix(i, j) +=
+          const Tensor<1, 2> u = values[displacement].value(j, q);
+          element_matrix(i, j) +=
             (beta * u * v - traction_of(j, q) * v - u * traction_of(i, q)) *
-            rule.weights[q];
+            values.JxW(q);
         }
-        cell_rhs(i) += (beta * v - traction_of(i, q)) * exact_displacement(x) *
-                       rule.weights[q];
+        element_rhs(i) += (beta * v - traction_of(i, q)) *
+                          exact_displacement(x) * values.JxW(q);
       }
   }
 
@@ -184,69 +182,54 @@ namespace StepNMM0
 
     // The unknowns of an element are those of its physical covers, and not of its cell:
     // a cell that a crack cuts in two elements has two sets of them.
-    const unsigned int                   n_unknowns = 2 * covers.n_covers();
-    std::vector<types::global_dof_index> dof_indices;
-    DynamicSparsityPattern               dynamic_pattern(n_unknowns);
-    for (unsigned int element = 0; element < elements.n_elements(); ++element)
-    {
-      covers.get_dof_indices(element, 2, dof_indices);
-      constraints.add_entries_local_to_global(dof_indices, dynamic_pattern);
-    }
-    SparsityPattern pattern;
-    pattern.copy_from(dynamic_pattern);
+    const unsigned int n_unknowns = 2 * covers.n_covers();
+    SparsityPattern    pattern;
+    pattern.copy_from(NMM::make_sparsity_pattern(covers, 2, constraints));
     SparseMatrix<double> matrix(pattern);
     Vector<double>       right_hand_side(n_unknowns), solution(n_unknowns);
 
-    // The loop over the elements. FEValues is made anew for each, with its rule, and works on the
-    // whole cell as ever. Sides of the plate are edges of an element that lie on a curve; the hole
-    // is free of traction, and adds nothing.
-    FullMatrix<double> cell_matrix(fe.n_dofs_per_cell(), fe.n_dofs_per_cell());
-    Vector<double>     cell_rhs(fe.n_dofs_per_cell());
+    // The loop over the elements. ElementValues stands for FEValues, and has the words of it.
+    FullMatrix<double> element_matrix(fe.n_dofs_per_cell());
+    Vector<double>     element_rhs(fe.n_dofs_per_cell());
+    NMM::ElementValues values(covers,
+                              quadrature,
+                              fe,
+                              update_gradients | update_JxW_values);
     for (unsigned int element = 0; element < elements.n_elements(); ++element)
     {
-      cell_matrix     = 0.;
-      cell_rhs        = 0.;
-      const auto cell = triangles.cell_iterator(elements.cell(element));
-      // an element whose area rounds to zero has no points
-      const Quadrature<2> element_rule = quadrature.rule(element);
-      if (element_rule.size() > 0)
-      {
-        FEValues<2> fe_values(triangles.mapping(),
-                              fe,
-                              element_rule,
-                              update_gradients | update_JxW_values);
-        fe_values.reinit(cell);
-        add_volume_terms(fe_values, cell_matrix);
-      }
-
-      for (const NMM::ElementEdge &edge : elements.edges(element))
-      {
-        if (edge.curve_set == NMM::invalid_index)
-          continue;
-        const unsigned int piece = elements.curve_set(edge.curve_set)[0];
-        const std::string &name =
-          plate.curves()[plate.piece_to_curve()[piece]].name;
-        if (name != "left" && name != "other")
-          continue;
-        const NMM::EdgeRule rule =
-          NMM::make_edge_rule(edge,
-                              NMM::cell_frame(elements, element),
-                              /* degree = */ 6);
-        if (rule.points.empty())
-          continue;
-        FEValues<2> side_values(triangles.mapping(),
-                                fe,
-                                Quadrature<2>(rule.points),
-                                update_values | update_gradients |
-                                  update_quadrature_points);
-        side_values.reinit(cell);
-        add_side_terms(
-          side_values, rule, name == "left", cell_matrix, cell_rhs);
-      }
-      covers.get_dof_indices(element, 2, dof_indices);
-      constraints.distribute_local_to_global(
-        cell_matrix, cell_rhs, dof_indices, matrix, right_hand_side);
+      values.reinit(element);
+      element_matrix = 0.;
+      add_volume_terms(values, element_matrix);
+      constraints.distribute_local_to_global(element_matrix,
+                                             values.get_dof_indices(),
+                                             matrix);
     }
+
+    // Sides of the plate are edges of elements that lie on a curve of that name; the hole is free
+    // of traction, and adds nothing.
+    NMM::EdgeValues side_values(covers,
+                                /* degree = */ 6,
+                                fe,
+                                update_values | update_gradients |
+                                  update_quadrature_points | update_JxW_values |
+                                  update_normal_vectors);
+    for (const std::string name : {"left", "other"})
+      for (const NMM::EdgePiece &piece : NMM::boundary_pieces(covers, name))
+      {
+        side_values.reinit(piece);
+        element_matrix = 0.;
+        element_rhs    = 0.;
+        add_side_terms(side_values,
+                       triangles.cell_diameter(elements.cell(piece.element)),
+                       name == "left",
+                       element_matrix,
+                       element_rhs);
+        constraints.distribute_local_to_global(element_matrix,
+                                               element_rhs,
+                                               side_values.get_dof_indices(),
+                                               matrix,
+                                               right_hand_side);
+      }
 
     SparseDirectUMFPACK solver;
     solver.initialize(matrix);
@@ -258,11 +241,14 @@ namespace StepNMM0
     NMM::ElasticityProblem problem;
     problem.plane_state = NMM::PlaneState::plane_stress;
     problem.materials   = {{"steel", youngs_modulus, poissons_ratio}};
-    std::vector<Tensor<1, 2>> values(covers.n_covers());
+    std::vector<Tensor<1, 2>> displacements(covers.n_covers());
     for (unsigned int cover = 0; cover < covers.n_covers(); ++cover)
-      values[cover] = Tensor<1, 2>({solution[NMM::unknown_of(cover, 0)],
-                                    solution[NMM::unknown_of(cover, 1)]});
-    const NMM::DisplacementField field(covers, problem, std::move(values));
+      displacements[cover] =
+        Tensor<1, 2>({solution[NMM::unknown_of(cover, 0)],
+                      solution[NMM::unknown_of(cover, 1)]});
+    const NMM::DisplacementField field(covers,
+                                       problem,
+                                       std::move(displacements));
 
     const NMM::ErrorNorms errors =
       NMM::compute_errors(field, exact_displacement, exact_stress);

@@ -217,8 +217,12 @@ namespace NMM
     std::string
     subtitle(const PictureData       &data,
              const PictureParameters &parameters,
+             const PictureFrame      &frame,
              const int                exponent)
     {
+      if (!frame.quantity.empty())
+        return frame.quantity +
+               (exponent == 0 ? "" : ", in 10" + superscript(exponent));
       const Quantity     quantity = parameters.quantity;
       std::ostringstream text;
       const bool         is_stress = quantity < Quantity::displacement;
@@ -623,11 +627,12 @@ namespace NMM
                   30. * u + width - note_width + 10. * u,
                   36. * u,
                   {22. * u, note_width - 10. * u, false, true});
-      draw_text(cr.get(),
-                subtitle(data, parameters, choose_exponent(minimum, maximum)),
-                30. * u,
-                63. * u,
-                {17. * u, data.contacts.empty() ? width : 0.52 * width});
+      draw_text(
+        cr.get(),
+        subtitle(data, parameters, frame, choose_exponent(minimum, maximum)),
+        30. * u,
+        63. * u,
+        {17. * u, data.contacts.empty() ? width : 0.52 * width});
       if (!data.contacts.empty())
         draw_legend_of_bars(cr.get(), data, layout, largest, parameters);
       draw_legend_of_cracks(cr.get(), data, layout);

@@ -1,6 +1,7 @@
 #include <nmm/covers/point_location.h>
 #include <nmm/quadrature/element_quadrature.h>
 
+#include "edge_rule.h"
 #include "element_frame.h"
 #include "moments.h"
 #include "slab_candidates.h"
@@ -23,12 +24,26 @@ namespace NMM
                  const CellFrame   &frame,
                  const unsigned int degree)
   {
+    EdgeRule rule;
+    internal::set_edge_rule(edge, frame, degree, rule);
+    return rule;
+  }
+
+
+  void
+  internal::set_edge_rule(const ElementEdge &edge,
+                          const CellFrame   &frame,
+                          const unsigned int degree,
+                          EdgeRule          &rule)
+  {
     thread_local internal::GaussTable gauss;
 
-    EdgeRule                   rule;
+    rule.points.clear();
+    rule.normals.clear();
+    rule.weights.clear();
     const dealii::Tensor<1, 2> chord = edge.end - edge.start;
     if (chord.norm_square() == 0.)
-      return rule;
+      return;
 
     const dealii::Tensor<2, 2> to_reference = dealii::invert(frame.jacobian);
     // Differences are taken first, since the cell may be far from the origin.
@@ -49,7 +64,7 @@ namespace NMM
         rule.normals.push_back(right / length);
         rule.weights.push_back(line.weights[q] * length);
       }
-      return rule;
+      return;
     }
 
     // The arc is x = middle + sin(tau)/sin(phi) chord/2
@@ -77,7 +92,6 @@ namespace NMM
       rule.normals.push_back(sign * radial / radial.norm());
       rule.weights.push_back(2. * phi * radius * angles.weights[q]);
     }
-    return rule;
   }
 
 

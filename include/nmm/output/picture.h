@@ -5,6 +5,8 @@
 #include <nmm/output/picture_data.h>
 #include <nmm/output/picture_scale.h>
 
+#include <deal.II/lac/vector.h>
+
 #include <array>
 #include <optional>
 #include <string>
@@ -28,6 +30,8 @@ namespace NMM
     std::optional<double> bar_scale;
     /// Text to the right of the title, e.g. the time.
     std::string note;
+    /// Name and unit of what colours the picture; if empty, those of PictureParameters::quantity.
+    std::string quantity;
   };
 
 
@@ -92,6 +96,19 @@ namespace NMM
                          const std::string       &title,
                          const PictureFrame      &frame     = {},
                          unsigned int             n_colours = 1024);
+
+  /**
+   * Draws a scalar field with one unknown for each cover, such as a temperature, into the PNG file
+   * @p file_name. @p unknowns are those of all covers, on each rank; @p quantity is name and unit
+   * of the field, for the colour bar. Collective.
+   * @throws OutputFailure if the file cannot be written.
+   */
+  void
+  draw_scalar_picture(const CoverSystem            &covers,
+                      const dealii::Vector<double> &unknowns,
+                      const std::string            &quantity,
+                      const std::string            &title,
+                      const std::string            &file_name);
 } // namespace NMM
 
 #endif

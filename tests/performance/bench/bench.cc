@@ -53,7 +53,8 @@ namespace
                         {"incline", measure_incline, false},
                         {"slope", measure_slope, false},
                         {"output", measure_output, false},
-                        {"threads", measure_threads, false}};
+                        {"threads", measure_threads, false},
+                        {"values", measure_values, false}};
 
 
   /// All cases, or the one of that name.
@@ -78,7 +79,7 @@ namespace
       InputError("there is no case '" + name + "'",
                  "nmm-bench measure",
                  "say cutting, large-rings, ranks, ring, cantilever, hertz, "
-                 "cracked-plate, incline, slope, output or threads"));
+                 "cracked-plate, incline, slope, output, threads or values"));
   }
 
 

@@ -12,29 +12,28 @@ namespace NMM
 {
   namespace Bench
   {
+    Geometry
+    jointed_square(const unsigned int n_joints)
+    {
+      Geometry        geometry = Testing::make_box(1., 1.);
+      Testing::Random random(7);
+      for (unsigned int j = 0; j < n_joints; ++j)
+      {
+        const Point<2>     middle(random.uniform(0.06, 0.94),
+                              random.uniform(0.06, 0.94));
+        const double       angle = random.uniform(0., dealii::numbers::PI);
+        const Tensor<1, 2> half =
+          0.05 * Tensor<1, 2>({std::cos(angle), std::sin(angle)});
+        geometry.add_polyline({middle - half, middle + half},
+                              "joint " + std::to_string(j),
+                              CurveRole::joint);
+      }
+      return geometry;
+    }
+
+
     namespace
     {
-      /// The unit square with joints of a tenth of its side, anywhere in it.
-      Geometry
-      jointed_square(const unsigned int n_joints)
-      {
-        Geometry        geometry = Testing::make_box(1., 1.);
-        Testing::Random random(7);
-        for (unsigned int j = 0; j < n_joints; ++j)
-        {
-          const Point<2>     middle(random.uniform(0.06, 0.94),
-                                random.uniform(0.06, 0.94));
-          const double       angle = random.uniform(0., dealii::numbers::PI);
-          const Tensor<1, 2> half =
-            0.05 * Tensor<1, 2>({std::cos(angle), std::sin(angle)});
-          geometry.add_polyline({middle - half, middle + half},
-                                "joint " + std::to_string(j),
-                                CurveRole::joint);
-        }
-        return geometry;
-      }
-
-
       GradedMeshParameters
       mesh_of(const unsigned int n_cells)
       {

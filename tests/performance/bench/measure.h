@@ -123,6 +123,10 @@ namespace NMM
     void
     measure_output(Recorder &recorder);
 
+    /// Assembly of elasticity with ElementValues, and the library's own.
+    void
+    measure_values(Recorder &recorder);
+
     /// Rules of cut elements and assembly on one thread and two.
     void
     measure_threads(Recorder &recorder);

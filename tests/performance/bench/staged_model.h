@@ -75,6 +75,10 @@ namespace NMM
     };
 
 
+    /// The unit square with joints of a tenth of its side, anywhere in it.
+    Geometry
+    jointed_square(unsigned int n_joints);
+
     /// "none", "aggregation", "ghost penalty".
     std::string
     name(Stabilization stabilization);

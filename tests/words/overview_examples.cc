@@ -18,6 +18,8 @@
 #include <nmm/mechanics/static_elasticity.h>
 #include <nmm/mechanics/stress_recovery.h>
 #include <nmm/output/output.h>
+#include <nmm/quadrature/element_values.h>
+#include <nmm/quadrature/joint_values.h>
 #include <nmm/scene/run_scene.h>
 #include <nmm/solution/load_stepping.h>
 
@@ -119,6 +121,66 @@ namespace
     // End
     // clang-format on
     return integral;
+  }
+
+
+  [[maybe_unused]] void
+  values(const CoverSystem                       &covers,
+         const QuadratureCollection              &quadrature,
+         const dealii::FiniteElement<2>          &fe,
+         const dealii::AffineConstraints<double> &constraints,
+         const double                             p,
+         const double                             R)
+  {
+    using namespace dealii;
+    const ManifoldMesh              &mesh = covers.manifold_mesh();
+    const FEValuesExtractors::Vector displacement(0);
+    FullMatrix<double>               element_matrix(6, 6);
+    dealii::SparseMatrix<double>     system_matrix;
+    dealii::Vector<double>           rhs;
+    // clang-format off
+    // Example of quadrature/element_values.h
+    ElementValues values(covers, quadrature, fe, update_gradients | update_JxW_values);
+    for (unsigned int element = 0; element < mesh.n_elements(); ++element)
+      {
+        values.reinit(element);
+        element_matrix = 0.;
+        for (const unsigned int q : values.quadrature_point_indices())
+          for (const unsigned int i : values.dof_indices())
+            for (const unsigned int j : values.dof_indices())
+              element_matrix(i, j) +=
+                values.shape_grad(i, q) * values.shape_grad(j, q) * values.JxW(q);
+        constraints.distribute_local_to_global(
+          element_matrix, values.get_dof_indices(), system_matrix);
+      }
+    // End
+    // Example of quadrature/edge_values.h
+    EdgeValues edge(covers, 4, fe, update_values | update_JxW_values | update_normal_vectors);
+    for (const EdgePiece &piece : boundary_pieces(covers, "bore"))
+      {
+        edge.reinit(piece);
+        for (const unsigned int q : edge.quadrature_point_indices())
+          for (const unsigned int i : edge.dof_indices())
+            rhs(edge.get_dof_indices()[i]) -=
+              p * edge.normal(q) * edge[displacement].value(i, q) * edge.JxW(q);
+      }
+    // End
+    // Example of quadrature/joint_values.h
+    JointValues joint(covers, 4, fe, update_values | update_JxW_values);
+    for (const EdgePiece &piece : joint_pieces(covers))
+      {
+        joint.reinit(piece);
+        FullMatrix<double> joint_matrix(joint.n_current_interface_dofs());
+        for (const unsigned int q : joint.quadrature_point_indices())
+          for (const unsigned int i : joint.dof_indices())
+            for (const unsigned int j : joint.dof_indices())
+              joint_matrix(i, j) += joint.jump_in_shape_values(i, q) *
+                                    joint.jump_in_shape_values(j, q) / R * joint.JxW(q);
+        constraints.distribute_local_to_global(
+          joint_matrix, joint.get_interface_dof_indices(), system_matrix);
+      }
+    // End
+    // clang-format on
   }
 
 
@@ -465,6 +527,9 @@ namespace
                                      "geometry/geometry.h",
                                      "covers/mathematical_mesh.h",
                                      "quadrature/element_quadrature.h",
+                                     "quadrature/element_values.h",
+                                     "quadrature/edge_values.h",
+                                     "quadrature/joint_values.h",
                                      "materials/material.h",
                                      "linear_algebra/linear_algebra.h",
                                      "solution/newton_solver.h",

@@ -22,6 +22,8 @@
  * Order of calls: make a QuadratureCollection of a ManifoldMesh once, and ask it for the rule of
  * each element in assembly. Single elements and edges have make_element_rule() and
  * make_edge_rule(), which need no mesh; ElementRuleBuilder is the algorithm behind the former.
+ * Who assembles a weak form needs none of them: ElementValues, EdgeValues and JointValues give
+ * shape functions and weights in elements, on pieces of boundaries and on both sides of joints.
  *
  * @code
  *   const MathematicalMesh    &cells = mesh.mathematical_mesh();

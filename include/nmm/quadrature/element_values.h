@@ -19,12 +19,14 @@ namespace NMM
    * for (unsigned int element = 0; element < mesh.n_elements(); ++element)
    *   {
    *     values.reinit(element);
-   *     matrix = 0.;
+   *     element_matrix = 0.;
    *     for (const unsigned int q : values.quadrature_point_indices())
    *       for (const unsigned int i : values.dof_indices())
    *         for (const unsigned int j : values.dof_indices())
-   *           matrix(i, j) += values.shape_grad(i, q) * values.shape_grad(j, q) * values.JxW(q);
-   *     constraints.distribute_local_to_global(matrix, values.get_dof_indices(), system_matrix);
+   *           element_matrix(i, j) +=
+   *             values.shape_grad(i, q) * values.shape_grad(j, q) * values.JxW(q);
+   *     constraints.distribute_local_to_global(
+   *       element_matrix, values.get_dof_indices(), system_matrix);
    *   }
    * @endcode
    *

@@ -39,15 +39,14 @@ namespace NMM
    * for (const EdgePiece &piece : joint_pieces(covers))
    *   {
    *     joint.reinit(piece);
-   *     const unsigned int n = joint.n_current_interface_dofs();
-   *     FullMatrix<double> matrix(n, n);
+   *     FullMatrix<double> joint_matrix(joint.n_current_interface_dofs());
    *     for (const unsigned int q : joint.quadrature_point_indices())
    *       for (const unsigned int i : joint.dof_indices())
    *         for (const unsigned int j : joint.dof_indices())
-   *           matrix(i, j) += joint.jump_in_shape_values(i, q) *
-   *                           joint.jump_in_shape_values(j, q) / R * joint.JxW(q);
+   *           joint_matrix(i, j) += joint.jump_in_shape_values(i, q) *
+   *                                 joint.jump_in_shape_values(j, q) / R * joint.JxW(q);
    *     constraints.distribute_local_to_global(
-   *       matrix, joint.get_interface_dof_indices(), system_matrix);
+   *       joint_matrix, joint.get_interface_dof_indices(), system_matrix);
    *   }
    * @endcode
    */

@@ -282,6 +282,33 @@ namespace NMM
 
 
       void
+      add_weak_form(const std::vector<Row> &rows, std::vector<Bar> &bars)
+      {
+        const Row library = find(rows, "weak form", "assemble_at_rest"),
+                  values  = find(rows, "weak form", "ElementValues, matrix"),
+                  deal_ii = find(rows, "weak form", "ElementValues, deal.II");
+        const auto with_pattern = [](const Row &row) {
+          return row.sparsity + row.assembly;
+        };
+        bars.push_back(
+          {"6: assembly with ElementValues over the library's own, " +
+             text_of(library.elements) + " elements",
+           values.assembly / library.assembly,
+           1.3,
+           false,
+           text_of(values.assembly) + " s against " +
+             text_of(library.assembly) + " s, " +
+             text_of(library.cut_elements) +
+             " elements cut; into deal.II's matrix " +
+             text_of(deal_ii.assembly / library.assembly) +
+             ", with the sparsity pattern " +
+             text_of(with_pattern(deal_ii) / with_pattern(library)),
+           "the library integrates products of reference gradients, whole "
+           "elements share these, and a user's loop goes over points"});
+      }
+
+
+      void
       add_output(const std::vector<Row> &rows, std::vector<Bar> &bars)
       {
         for (const Row &row : select(rows, "output"))
@@ -315,6 +342,7 @@ namespace NMM
       add_large_rings(rows, bars);
       add_ranks(rows, bars);
       add_output(rows, bars);
+      add_weak_form(rows, bars);
       const bool is_full = rows.front().size == "full";
       out << "## Requirements\n\n";
       if (!is_full)

@@ -3,6 +3,10 @@
 #include <nmm/base/exceptions.h>
 #include <nmm/contact/assembly/statics.h>
 #include <nmm/covers/own_meshes.h>
+#include <nmm/quadrature/element_values.h>
+#include <nmm/quadrature/joint_values.h>
+
+#include <deal.II/fe/fe_system.h>
 
 #include "report.h"
 #include "staged_model.h"
@@ -114,6 +118,36 @@ namespace NMM
       }
 
 
+      /// Values in all elements, and on both sides of all joints.
+      void
+      count_values(const StagedModel &model, Counter &counter)
+      {
+        const dealii::FESystem<2> fe(model.mathematical_mesh->fe(), 2);
+        const dealii::UpdateFlags flags =
+          dealii::update_values | dealii::update_gradients |
+          dealii::update_quadrature_points | dealii::update_JxW_values;
+        ElementValues values(*model.covers, *model.quadrature, fe, flags);
+        JointValues   joint(*model.covers, 4, fe, flags);
+        const auto    pieces   = joint_pieces(*model.covers);
+        const auto    elements = [&]() {
+          for (unsigned int e = 0; e < model.manifold_mesh->n_elements(); ++e)
+            values.reinit(e);
+        };
+        const auto joints = [&]() {
+          for (const EdgePiece &piece : pieces)
+            joint.reinit(piece);
+        };
+        // the first ones make the memory that is used again
+        elements();
+        joints();
+        counter.count("values in elements",
+                      "element",
+                      model.manifold_mesh->n_elements(),
+                      elements);
+        counter.count("values on joints", "piece", pieces.size(), joints);
+      }
+
+
       void
       count_volume(Counter &counter)
       {
@@ -156,6 +190,7 @@ namespace NMM
         counter.count("tangent of an iteration, finite", "element", n, [&]() {
           assemble(Tangent::consistent);
         });
+        count_values(model, counter);
         const DisplacementField field(*model.covers, model.problem, u);
         counter.count("stress recovery", "element", n, [&]() {
           const StressRecovery recovery(field, model.aggregation);

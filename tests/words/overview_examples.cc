@@ -23,6 +23,9 @@
 #include <nmm/scene/run_scene.h>
 #include <nmm/solution/load_stepping.h>
 
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/sparse_matrix.h>
+
 #include <cmath>
 #include <fstream>
 #include <functional>

@@ -7,8 +7,8 @@ namespace NMM
 {
   namespace
   {
-    /// The edges of this rank's elements for which is_wanted(element, edge, curve) holds for a curve
-    /// on the edge.
+    /// The edges of this rank's elements for which is_wanted(element, edge, curve) holds for a
+    /// curve on the edge.
     template <typename IsWanted>
     std::vector<EdgePiece>
     collect_pieces(const CoverSystem &covers, const IsWanted &is_wanted)

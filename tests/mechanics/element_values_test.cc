@@ -14,8 +14,8 @@ using namespace NMM::Test;
 namespace
 {
   // The library integrates products of reference gradients and maps them with the Jacobian of the
-  // cell; here mapped gradients are multiplied point by point. A cell is cut by arcs, by a crack that
-  // ends, and by a joint. The difference is rounding: some 10 eps of the largest entry.
+  // cell; here mapped gradients are multiplied point by point. A cell is cut by arcs, by a crack
+  // that ends, and by a joint. The difference is rounding: some 10 eps of the largest entry.
   TEST(ElementValues, TheStiffnessIsTheLibrarysOwn)
   {
     for (const unsigned int degree : {1U, 2U})

@@ -27,8 +27,8 @@ namespace
   constexpr double k = 2., R = 0.3, f = 4., a = 0.5, dt = 0.5;
 
 
-  /// g of the solution T = t g, with k div grad g = -f. The flux t f r / 2 is radial, so that it does
-  /// not meet the cracks; at the ring T drops by R times the flux.
+  /// g of the solution T = t g, with k div grad g = -f. The flux t f r / 2 is radial, so that it
+  /// does not meet the cracks; at the ring T drops by R times the flux.
   double
   g_of(const Point<2> &x, const unsigned int block)
   {
@@ -133,9 +133,9 @@ namespace
   }
 
 
-  // The solution is in the space: on both sides of the ring it is a quadratic polynomial, and linear
-  // in time. What remains is the rounding of a direct solution, with a condition number near 1e4, and
-  // T is of size 1. Without the jumps the error would be that of the drop, 0.3.
+  // The solution is in the space: on both sides of the ring it is a quadratic polynomial, and
+  // linear in time. What remains is the rounding of a direct solution, with a condition number
+  // near 1e4, and T is of size 1. Without the jumps the error would be that of the drop, 0.3.
   TEST(HeatEquation, ARingResistsAndCracksInsulate)
   {
     const std::string picture = NMM_TEST_OUTPUT_DIR "/heat.png";

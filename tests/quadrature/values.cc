@@ -57,8 +57,8 @@ namespace
   }
 
 
-  // Integrals over a circle, a hole, with n towards its centre c = (0.1, 0.2): the length 2 pi r, the
-  // closed curve's normals, and (x - c) n = -r. Gauss rules on arcs are exact to rounding.
+  // Integrals over a circle, a hole, with n towards its centre c = (0.1, 0.2): the length 2 pi r,
+  // the closed curve's normals, and (x - c) n = -r. Gauss rules on arcs are exact to rounding.
   TEST(Values, CurvesHaveTheirLengthsAndNormals)
   {
     Model model(R"(boundary name=side LINESTRING (-1 -1, 1 -1, 1 1, -1 1, -1 -1)
@@ -112,7 +112,8 @@ namespace
   }
 
 
-  // The boundaries of two domains that share an edge: each has four sides and its own outward normals.
+  // The boundaries of two domains that share an edge: each has four sides and its own outward
+  // normals.
   TEST(Values, BoundariesBelongToTheirDomains)
   {
     Model      model(R"(boundary name=a LINESTRING (0 0, 1 0, 1 1, 0 1, 0 0)
@@ -140,8 +141,9 @@ namespace
   }
 
 
-  // A displacement and a pressure, each a polynomial on either side of a joint through everything. The
-  // space contains them, so values, gradients, jumps and averages are exact to rounding.
+  // A displacement and a pressure, each a polynomial on either side of a joint through
+  // everything. The space contains them, so values, gradients, jumps and averages are exact to
+  // rounding.
   TEST(Values, FieldsOfSeveralComponentsJump)
   {
     Model model(R"(boundary name=side LINESTRING (-1 -1, 1 -1, 1 1, -1 1, -1 -1)
@@ -271,9 +273,9 @@ namespace
   }
 
 
-  // Poisson's equation with a quadratic solution: given on the sides by Nitsche's method, its flux on
-  // both faces of a crack, and a joint through everything that averages and jumps tie. Rounding of
-  // a direct solution with a condition number near 1e5.
+  // Poisson's equation with a quadratic solution: given on the sides by Nitsche's method, its
+  // flux on both faces of a crack, and a joint through everything that averages and jumps tie.
+  // Rounding of a direct solution with a condition number near 1e5.
   TEST(Values, APatchWithACrackAndATiedJoint)
   {
     Model model(

@@ -29,9 +29,9 @@ namespace NMM
 
   /**
    * The edges on curves called @p name, or on all joints if it is empty, that have two different
-   * elements on their sides, each once: as the edge of the element with the lower number, if that is one
-   * of this rank. At the tip of a crack both sides can be the same element, in which nothing
-   * jumps; such an edge is no piece.
+   * elements on their sides, each once: as the edge of the element with the lower number, if that
+   * is one of this rank. At the tip of a crack both sides can be the same element, in which
+   * nothing jumps; such an edge is no piece.
    * @throws InputError if no curve has the name.
    */
   std::vector<EdgePiece>

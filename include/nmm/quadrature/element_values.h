@@ -9,9 +9,9 @@ namespace NMM
   /**
    * Shape functions in manifold elements, for integrals over the solid,
    * @f[ \int_E f\,dA \approx \sum_q f(x_q)\,\mathrm{JxW}_q , @f]
-   * exact for polynomials of the degree of the element's rule. Whole elements share the table of the
-   * reference cell, so that only gradients are mapped; cut elements evaluate the polynomials at
-   * their points.
+   * exact for polynomials of the degree of the element's rule. Whole elements share the table of
+   * the reference cell, so that only gradients are mapped; cut elements evaluate the polynomials
+   * at their points.
    *
    * The weak form of the Laplace equation:
    * @code

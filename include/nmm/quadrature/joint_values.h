@@ -30,8 +30,9 @@ namespace NMM
    * the piece, side 1 its neighbor:
    * @f[ [\![\phi]\!] = \phi_0-\phi_1,\qquad \{\phi\}=\tfrac12(\phi_0+\phi_1), @f]
    * and the normal points from side 0 to side 1. Indices i are those of interface unknowns: the
-   * unknowns of both elements, each once. Near the tip of a crack some covers belong to both sides; the jump of
-   * their functions is the difference, which is zero if both elements are in one cell.
+   * unknowns of both elements, each once. Near the tip of a crack some covers belong to both
+   * sides; their functions do not jump there, and their gradients do only if the crack runs along
+   * an edge of the mesh.
    *
    * A resistance R against the flux through joints, k du/dn = -(u_0 - u_1) / R:
    * @code

@@ -16,8 +16,8 @@ namespace NMM
 {
   namespace internal
   {
-    /// Set value[q] to the sum over i of the unknowns @p dofs in @p solution times function(i, q), for
-    /// all q below @p n_points.
+    /// Set value[q], for all q below @p n_points, to the sum over i of function(i, q) times the
+    /// unknown dofs[i] of @p solution.
     template <typename VectorType, typename Value, typename Function>
     void
     sum_up(const VectorType                                   &solution,
@@ -42,10 +42,10 @@ namespace NMM
    * JointValues have in common. It is used like dealii::FEValuesBase, whose words it has.
    *
    * Shape function i belongs to component c = i % n and weight function k = i / n of the element,
-   * where n is the number of components of the finite element: @f$\phi_i = w_k e_c@f$. This is the order
-   * of the FESystem and of CoverSystem::get_dof_indices(). The finite element may be any FESystem
-   * of equal elements, each of them the one of the mathematical mesh, also in several groups:
-   * `FESystem<2>(fe, 2, fe, 1)` for a displacement and a pressure.
+   * where n is the number of components of the finite element: @f$\phi_i = w_k e_c@f$. This is
+   * the order of the FESystem and of CoverSystem::get_dof_indices(). The finite element may be
+   * any FESystem of equal elements, each of them the one of the mathematical mesh, also in
+   * several groups: `FESystem<2>(fe, 2, fe, 1)` for a displacement and a pressure.
    *
    * Functions and unknowns are those of the physical covers, so both sides of a crack within a cell
    * have unknowns of their own. reinit() of the derived classes allocates no memory, except when
@@ -175,7 +175,8 @@ namespace NMM
     };
 
     /// @throws InputError if the finite element is not one that the class comment describes, or
-    /// if there are flags other than values, gradients, quadrature points, JxW values and normal vectors.
+    /// if there are flags other than values, gradients, quadrature points, JxW values and normal
+    /// vectors.
     ShapeValues(const CoverSystem              &covers,
                 const dealii::FiniteElement<2> &fe,
                 dealii::UpdateFlags             flags);

@@ -103,13 +103,11 @@ namespace NMM
   {
     if (Parallel::n_mpi_processes(solid->covers().communicator()) > 1)
       return true;
-    using Type = BoundaryCondition::Type;
     const bool has_conditions =
       std::any_of(problem.boundary_conditions.begin(),
                   problem.boundary_conditions.end(),
                   [](const BoundaryCondition &condition) {
-                    return condition.type == Type::displacement ||
-                           condition.type == Type::normal_displacement;
+                    return condition.is_support();
                   });
     if (has_conditions || !problem.fixed_points.empty())
       return contact().report().n_stick + contact().report().n_slip > 0;

@@ -1,6 +1,7 @@
 #include <nmm/analysis/motion.h>
 #include <nmm/mechanics/mass_matrix.h>
 
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -44,10 +45,20 @@ namespace NMM
         solid.covers().locally_owned_elements());
       rules = mass_rules.get();
     }
+    Loading loading = given.loading;
+    if (given.absorbs)
+      for (const Release &release : releases_of_absorbing(problem))
+        loading.releases.push_back(release);
     term = make_solid(*elasticity,
                       given.kinematics,
-                      given.loading,
+                      loading,
                       make_mass_matrix(*elasticity, *rules));
+    if (given.absorbs && has_absorbing_boundary(problem))
+      absorbing = std::make_unique<AbsorbingTerm>(solid.covers(),
+                                                  term->layout(),
+                                                  problem,
+                                                  loading.amplitudes,
+                                                  given.damping);
     if (given.damping.mass > 0. || given.damping.stiffness > 0.)
       term->damp(given.damping, given.scheme.is_conserving);
     further = std::make_unique<FurtherTerms>(given.further_terms,
@@ -76,11 +87,47 @@ namespace NMM
                                             given.contact_update);
       terms.push_back(touch.get());
     }
+    if (absorbing)
+    {
+      hold_at_boundaries(zero(), 0.);
+      terms.push_back(absorbing.get());
+    }
     for (ForceTerm *const other : further->pointers())
       terms.push_back(other);
     model = std::make_unique<MechanicalModel>(term->layout(), terms);
     time_integrator =
       std::make_unique<TimeIntegrator>(*model, given.scheme, given.newton);
+  }
+
+
+  void
+  Motion::hold_at_boundaries(const ForceTerm::Vector &u, const double t)
+  {
+    if (!absorbing)
+      return;
+    ForceTerm::Vector relevant(term->layout().locally_owned,
+                               term->layout().locally_relevant,
+                               solid->covers().communicator());
+    relevant = u;
+    // the releases of these supports are in effect before any other event
+    Presence presence;
+    presence.events_passed = -std::numeric_limits<double>::infinity();
+    term->set_presence(presence);
+    ForceTerm::Vector forces = term->residual_at(relevant, t);
+    presence.events_passed   = std::numeric_limits<double>::lowest();
+    term->set_presence(presence);
+    forces -= term->residual_at(relevant, t);
+    absorbing->hold(forces);
+  }
+
+
+  void
+  Motion::start(const ForceTerm::Vector &u,
+                const ForceTerm::Vector &v,
+                const double             time)
+  {
+    hold_at_boundaries(u, time);
+    time_integrator->initialize(u, v, time);
   }
 
 

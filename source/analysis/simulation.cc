@@ -182,6 +182,7 @@ namespace NMM
       how.contact_update     = ContactUpdate::every_step;
       return how;
     }
+    how.absorbs = true;
     how.loading = loading();
     how.damping = given.damping;
     how.scheme  = given.scheme ? *given.scheme
@@ -222,9 +223,9 @@ namespace NMM
     if (InelasticTerms *const terms = motion->solid_term().inelastic_terms())
       terms->restore_internal_state(materials);
     motion->further_terms().restore(of_terms);
-    motion->integrator().initialize(u,
-                                    is_relaxation ? motion->zero() : v,
-                                    is_relaxation ? 0. : time);
+    motion->start(u,
+                  is_relaxation ? motion->zero() : v,
+                  is_relaxation ? 0. : time);
     if (!removed_blocks.empty())
       motion->integrator().drop_blocks(removed_blocks);
   }

@@ -49,8 +49,9 @@ namespace NMM
     {
       const AssembledForces &sum = model->forces();
       forces                     = *sum.residual;
-      if (with_damping && sum.damping != nullptr)
-        matrix.add_product(*sum.damping, begin->v, forces);
+      if (with_damping)
+        for (const auto *C : sum.damping)
+          matrix.add_product(*C, begin->v, forces);
       subtract_closing(begin->closing.share(begin->time));
       model->layout().constraints->set_zero(forces);
       return forces;
@@ -167,11 +168,10 @@ namespace NMM
                                       rounding / (step.scheme.beta * h * h) *
                                         mass_of_displacement);
       result.force_rounding     = sum.rounding;
-      if (sum.damping != nullptr)
-      {
+      if (!sum.damping.empty())
         step.mix_velocities(rows, scratch);
-        matrix.add_product(*sum.damping, scratch, forces);
-      }
+      for (const auto *C : sum.damping)
+        matrix.add_product(*C, scratch, forces);
       subtract_closing(step.closing_share());
       if (model->layout().constraints->n_constraints() > 0)
         model->layout().constraints->set_zero(forces);

@@ -51,8 +51,8 @@ namespace NMM
       in_place          = forces.writable_tangent;
       const auto add_to = [&](const auto &add) {
         add(step.mass_factor(), *layout->mass);
-        if (forces.damping != nullptr)
-          add(step.damping_factor(), *forces.damping);
+        for (const Matrix *C : forces.damping)
+          add(step.damping_factor(), *C);
       };
       if (forces.body_tangent != nullptr)
       {

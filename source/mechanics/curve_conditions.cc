@@ -136,9 +136,7 @@ namespace NMM
                        conditions.end());
       result.has_displacement =
         std::any_of(conditions.begin(), conditions.end(), [&](unsigned int c) {
-          const auto type = problem.boundary_conditions[c].type;
-          return type == BoundaryCondition::Type::displacement ||
-                 type == BoundaryCondition::Type::normal_displacement;
+          return problem.boundary_conditions[c].is_support();
         });
       return result;
     }

@@ -50,7 +50,7 @@ namespace NMM
         {
           if (problem->boundary_conditions[c].type == Type::follower_pressure)
             add_follower(c, element, rule);
-          else if (is_weak(problem->boundary_conditions[c]))
+          else if (problem->boundary_conditions[c].is_support())
           {
             maker.append_condition(c, element, rule, weak_points);
             append_places(element, rule);
@@ -250,7 +250,7 @@ namespace NMM
       for (unsigned int c = 0; c < problem->boundary_conditions.size(); ++c)
       {
         const BoundaryCondition &condition = problem->boundary_conditions[c];
-        if (condition.value == nullptr || is_weak(condition) ||
+        if (condition.value == nullptr || condition.is_support() ||
             condition.type == Type::follower_pressure)
           continue;
         for (unsigned int e = first; e < last; ++e)

@@ -15,7 +15,9 @@ namespace NMM
     n_value_components(const BoundaryCondition::Type type)
     {
       return (type == BoundaryCondition::Type::traction ||
-              type == BoundaryCondition::Type::displacement)
+              type == BoundaryCondition::Type::displacement ||
+              type == BoundaryCondition::Type::absorbing ||
+              type == BoundaryCondition::Type::free_field)
                ? 2
                : 1;
     }

@@ -80,11 +80,12 @@ namespace NMM
                    1.,
                    sum);
     forces.residual             = &sum;
-    forces.damping              = damping();
     forces.scale                = elastic->force_scale();
     forces.strain_energy        = elastic->energies().strain;
     forces.energy_of_conditions = elastic->energies().conditions;
-    const bool with_tangent     = trial.tangent != Tangent::none;
+    if (damping() != nullptr)
+      forces.damping.push_back(damping());
+    const bool with_tangent = trial.tangent != Tangent::none;
     if (with_tangent)
       forces.tangent = &elastic->tangent();
     if (!inelastic)

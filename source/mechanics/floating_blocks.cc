@@ -169,10 +169,9 @@ namespace NMM
                 problem.boundary_conditions[c];
               const dealii::Point<2> x =
                 mathematical_mesh.reference_to_real(cell, rule.points[q]);
-              if (condition.type ==
-                  BoundaryCondition::Type::normal_displacement)
+              if (condition.holds_normal())
                 held.add(piece, x, rule.normals[q]);
-              else if (condition.type == BoundaryCondition::Type::displacement)
+              else if (condition.is_support())
                 for (unsigned int d = 0; d < 2; ++d)
                   if (condition.components[d])
                     held.add(piece, x, dealii::Point<2>::unit_vector(d));

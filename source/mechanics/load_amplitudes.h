@@ -23,8 +23,7 @@ namespace NMM
     inline bool
     is_load(const BoundaryCondition &condition)
     {
-      return condition.type != BoundaryCondition::Type::displacement &&
-             condition.type != BoundaryCondition::Type::normal_displacement;
+      return !condition.is_support();
     }
 
 

@@ -43,6 +43,7 @@ namespace NMM
       sum = AssembledForces();
     sum.scale = sum.rounding = sum.strain_energy = sum.energy_of_conditions =
       0.;
+    sum.damping.clear();
     if (coupled)
       coupled->begin(trial, sum);
     for (ForceTerm *term : terms)

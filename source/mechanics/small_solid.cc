@@ -111,11 +111,12 @@ namespace NMM
       if (trial.with_energies && trial.blocks().empty())
         add_energies(*trial.end, amplitudes, sum);
     }
-    sum.residual            = &forces;
-    sum.damping             = damping();
-    sum.scale               = trial.with_energies || trial.is_conserving
-                                ? std::hypot(with_loads.scale, elastic_scale)
-                                : scale_at_rest();
+    sum.residual = &forces;
+    sum.scale    = trial.with_energies || trial.is_conserving
+                     ? std::hypot(with_loads.scale, elastic_scale)
+                     : scale_at_rest();
+    if (damping() != nullptr)
+      sum.damping.push_back(damping());
     const bool with_tangent = trial.tangent != Tangent::none;
     if (with_tangent)
       sum.tangent = &elastic->tangent();

@@ -18,12 +18,15 @@ namespace NMM
       {
         projection = 0.;
         prescribed = 0.;
-        if (condition.type == BoundaryCondition::Type::normal_displacement)
+        // The value of an absorbing boundary is a wave, and not a displacement.
+        const bool has_value =
+          condition.value != nullptr && !condition.is_absorbing();
+        if (condition.holds_normal())
         {
           projection[0][0] = n[0] * n[0];
           projection[0][1] = n[0] * n[1];
           projection[1][1] = n[1] * n[1];
-          if (condition.value != nullptr)
+          if (has_value)
             prescribed = condition.value->value(x) * n;
           return;
         }
@@ -31,7 +34,7 @@ namespace NMM
           if (condition.components[c])
           {
             projection[c][c] = 1.;
-            if (condition.value != nullptr)
+            if (has_value)
               prescribed[c] = condition.value->value(x, c);
           }
       }

@@ -14,15 +14,6 @@ namespace NMM
 {
   namespace internal
   {
-    /// Whether Nitsche's method imposes a boundary condition: the condition is no load.
-    inline bool
-    is_weak(const BoundaryCondition &condition)
-    {
-      return condition.type == BoundaryCondition::Type::displacement ||
-             condition.type == BoundaryCondition::Type::normal_displacement;
-    }
-
-
     /// A quadrature point, in the reference configuration, of a displacement condition (one side)
     /// or of a tie (two), which Nitsche's method imposes.
     struct WeakPoint

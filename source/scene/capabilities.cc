@@ -49,6 +49,9 @@ namespace NMM
       {C::joint_flow,
        "water that flows in joints",
        "Water/Joint pressure = network"},
+      {C::absorbing,
+       "absorbing boundaries",
+       "Boundary conditions/.../Type = absorbing"},
       {C::contact, "contact", "Contact/Enforcement = penalty"},
       {C::no_contact, "a scene without contact", ""},
       {C::augmented_lagrangian,
@@ -227,6 +230,13 @@ namespace NMM
       add(C::pores, p.water.fills_pores);
       add(C::joint_flow,
           p.water.joint_pressure == WaterParameters::JointPressure::network);
+      for (const BoundaryConditionParameters &condition : p.boundary_conditions)
+        add(C::absorbing,
+            "Boundary conditions",
+            condition.name,
+            "Type",
+            condition.type == BoundaryCondition::Type::absorbing ||
+              condition.type == BoundaryCondition::Type::free_field);
       add(C::several_ranks, n_ranks > 1);
     }
 
@@ -520,6 +530,10 @@ namespace NMM
        "each stage ends in an equilibrium, after which nothing is to be "
        "relaxed",
        "set 'Model/Analysis' to static, dynamic or safety factor"},
+      {{{C::absorbing}, {C::growth}, {C::dynamics}},
+       "it has not been built: what the boundary bore before the motion is not "
+       "carried over to the solid that is cut again",
+       "remove one of the two"},
       {{{C::stages}, {C::growth}},
        "it has not been built: what was excavated and released is not carried "
        "over to the solid that is cut again",

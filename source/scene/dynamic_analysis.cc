@@ -84,6 +84,7 @@ namespace NMM
       how.scheme =
         parameters.time.time_scheme(kind, how.kinematics, contact != nullptr);
       how.loading = scene.make_loading();
+      how.absorbs = kind == Analysis::dynamics;
       if (kind == Analysis::relaxation)
         how.contact_update = update_in_relaxation(how.scheme);
       damping =
@@ -292,7 +293,7 @@ namespace NMM
       if (!scene.parameters().initial_velocities.empty())
         v = initial_velocity();
       // This applies the releases at 0 s.
-      motion->integrator().initialize(u, v);
+      motion->start(u, v);
       if (!start.removed_blocks.empty())
         motion->integrator().drop_blocks(start.removed_blocks);
       last_good    = motion->integrator().state();

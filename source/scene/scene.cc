@@ -53,7 +53,9 @@ namespace NMM
     n_values(const BoundaryCondition::Type type)
     {
       return type == BoundaryCondition::Type::traction ||
-                 type == BoundaryCondition::Type::displacement
+                 type == BoundaryCondition::Type::displacement ||
+                 type == BoundaryCondition::Type::absorbing ||
+                 type == BoundaryCondition::Type::free_field
                ? 2
                : 1;
     }
@@ -467,6 +469,9 @@ namespace NMM
         condition.value         = value;
         condition.components[0] = parameters.components[0];
         condition.components[1] = parameters.components[1];
+        if (parameters.wave)
+          condition.wave = *parameters.wave;
+        condition.slides_at_rest = parameters.slides_at_rest;
         problem.boundary_conditions.push_back(condition);
       }
     }

@@ -45,7 +45,17 @@ namespace NMM
       {"pressure", BoundaryCondition::Type::pressure},
       {"follower pressure", BoundaryCondition::Type::follower_pressure},
       {"displacement", BoundaryCondition::Type::displacement},
-      {"normal displacement", BoundaryCondition::Type::normal_displacement}};
+      {"normal displacement", BoundaryCondition::Type::normal_displacement},
+      {"absorbing", BoundaryCondition::Type::absorbing},
+      {"free field", BoundaryCondition::Type::free_field}};
+
+    /// The first word stands for no wave.
+    const Words<std::optional<BoundaryCondition::Wave>> waves = {
+      {"none", std::nullopt},
+      {"velocity", BoundaryCondition::Wave::velocity},
+      {"stress", BoundaryCondition::Wave::stress}};
+
+    const Words<bool> holds_at_rest = {{"fixed", false}, {"normal", true}};
 
     const Words<std::array<bool, 2>> component_choices = {
       {"x, y", {{true, true}}},
@@ -320,14 +330,34 @@ namespace NMM
       "with the surface and acts on its current area (small kinematics: the "
       "same as pressure); displacement: prescribed by component; normal "
       "displacement: prescribed along the outward normal, free to slide along "
-      "the boundary (0: a symmetry line).");
+      "the boundary (0: a symmetry line); absorbing: waves leave through it in "
+      "a dynamic analysis, and at rest it is held; free field: the same on a "
+      "vertical side, beside a column of the ground that moves with the upward "
+      "wave.");
     entries.add("Value",
                 value,
                 "Expression of x and y: one for pressures [Pa] and normal "
                 "displacement [m], two separated by a semicolon for traction "
-                "[Pa] and displacement [m]. Empty: zero. pi, the usual "
-                "functions and if(condition, a, b) are known.");
+                "[Pa], displacement [m] and the upward wave. Empty: zero. pi, "
+                "the usual functions and if(condition, a, b) are known.");
     add_components(entries, components);
+    entries.add("Upward wave",
+                wave,
+                waves,
+                "Absorbing: what comes in through the boundary, free field: "
+                "through the base of its column; Value times Amplitude. "
+                "velocity: that of the incoming wave itself, half "
+                "of what an outcrop shows [m/s]; stress: the traction that "
+                "this wave exerts on the solid, for shear rho c_s times its "
+                "velocity [Pa]. Both are applied with the factor 2, since the "
+                "dashpots take as much as the wave brings.");
+    entries.add(
+      "At rest",
+      slides_at_rest,
+      holds_at_rest,
+      "Absorbing, free field: how it is held where nothing moves in "
+      "time, and until a motion begins; fixed: in both directions; normal: "
+      "free to slide along the boundary.");
     time.name = name;
     time.list_entries(entries, /* may_be_released = */ true);
   }
@@ -348,6 +378,21 @@ namespace NMM
         "components are chosen for a condition that has none to choose",
         section,
         "remove 'Components', or set 'Type = displacement'"));
+    const bool is_absorbing = type == BoundaryCondition::Type::absorbing ||
+                              type == BoundaryCondition::Type::free_field;
+    AssertThrow(is_absorbing || (!wave && !slides_at_rest),
+                InputError("'Upward wave' or 'At rest' is given for a "
+                           "condition that absorbs no waves",
+                           section,
+                           "remove it, or set 'Type' to absorbing or free "
+                           "field"));
+    const bool has_value = value.find_first_not_of(" \t") != std::string::npos;
+    AssertThrow(!is_absorbing || has_value == wave.has_value(),
+                InputError(has_value ? "a value is given, but not of what"
+                                     : "an upward wave without a value",
+                           section,
+                           has_value ? "set 'Upward wave' to velocity or stress"
+                                     : "set 'Value' to its two components"));
   }
 
 

@@ -227,7 +227,7 @@ namespace NMM
         stiffness.vmult(forces, displacements);
         sum.residual      = &forces;
         sum.tangent       = &stiffness;
-        sum.damping       = &damping;
+        sum.damping       = {&damping};
         sum.scale         = 1.;
         sum.strain_energy = 0.5 * (displacements * forces);
         return Deformation::admissible;

@@ -4,6 +4,7 @@
 #include <nmm/analysis/contact_model.h>
 #include <nmm/analysis/further_terms.h>
 #include <nmm/dynamics/time_integrator.h>
+#include <nmm/mechanics/absorbing_term.h>
 #include <nmm/mechanics/solid.h>
 #include <nmm/mechanics/solid_term.h>
 
@@ -28,6 +29,9 @@ namespace NMM
     /// Whether obstacles are removed when their time has come, and accepted states of contact are
     /// taken into account, see AccountedContact.
     bool is_accounted = true;
+    /// Whether absorbing boundaries absorb, see AbsorbingTerm. Otherwise they are held, as in a
+    /// motion that is a means to find rest.
+    bool absorbs = false;
     /// Newton's method, see newton_in_motion().
     NewtonParameters newton = TimeIntegrator::default_newton_parameters();
     /// Force terms beside solid and contact.
@@ -51,6 +55,14 @@ namespace NMM
            const ElasticityProblem &problem,
            MotionParameters         parameters,
            ContactModel            *contact = nullptr);
+
+    /// Start at @p time [s] with the displacements @p u and velocities @p v, as
+    /// TimeIntegrator::initialize(). What the supports of absorbing boundaries exert in this state
+    /// stays as their static part. What materials remember must have been restored before.
+    void
+    start(const ForceTerm::Vector &u,
+          const ForceTerm::Vector &v,
+          double                   time = 0.);
 
     /// Begin again with an undeformed solid, and with the contact that the model has now, such as one of
     /// reduced strength. What materials remember is forgotten.
@@ -109,17 +121,24 @@ namespace NMM
     void
     make_equations();
 
+    /// Let absorbing boundaries exert what their supports do at the displacements @p u [m] and the
+    /// time @p t [s].
+    void
+    hold_at_boundaries(const ForceTerm::Vector &u, double t);
+
     const Solid                          *solid;
     MotionParameters                      given;
     ContactModel                         *contact;
     std::unique_ptr<QuadratureCollection> mass_rules;
     std::unique_ptr<FiniteElasticity>     elasticity;
     std::unique_ptr<SolidTerm>            term;
-    std::unique_ptr<FurtherTerms>         further;
-    std::unique_ptr<ContactTerm>          touch;
-    std::unique_ptr<AccountedContact>     account;
-    std::unique_ptr<MechanicalModel>      model;
-    std::unique_ptr<TimeIntegrator>       time_integrator;
+    /// Null unless boundaries absorb.
+    std::unique_ptr<AbsorbingTerm>    absorbing;
+    std::unique_ptr<FurtherTerms>     further;
+    std::unique_ptr<ContactTerm>      touch;
+    std::unique_ptr<AccountedContact> account;
+    std::unique_ptr<MechanicalModel>  model;
+    std::unique_ptr<TimeIntegrator>   time_integrator;
   };
 
 

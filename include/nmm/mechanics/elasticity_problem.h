@@ -36,6 +36,7 @@
  * | spring_term.h | the term of springs between material points |
  * | bolt.h, bolt_term.h | the term of rock bolts and anchors |
  * | water.h | the loads of water below a table, on faces, in joints and in pores |
+ * | absorbing_term.h | the term of boundaries through which waves leave and come in |
  * | loading.h | loads, releases and base acceleration as functions of time |
  * | mass_matrix.h | consistent mass matrix |
  * | material_vector.h | positions of material points as functions of the unknowns |
@@ -96,7 +97,22 @@ namespace NMM
       displacement,
       /// Prescribed displacement along the outward normal [m]; the tangential
       /// direction is free of traction. The value 0 makes a symmetry line.
-      normal_displacement
+      normal_displacement,
+      /// Waves leave through it in motion, see AbsorbingTerm, with the wave that comes in as the
+      /// value, two components of `wave`. At rest it is held as a displacement of zero.
+      absorbing,
+      /// An absorbing boundary on a vertical side, beside which the ground goes on as a column that
+      /// moves by itself. The value is the wave that comes in at the base of the column.
+      free_field
+    };
+
+    /// What the value of an absorbing boundary is.
+    enum class Wave
+    {
+      /// The velocity of the incoming wave [m/s].
+      velocity,
+      /// The traction that the incoming wave alone exerts on the solid [Pa].
+      stress
     };
 
     /// Name for messages.
@@ -108,11 +124,15 @@ namespace NMM
     std::optional<std::vector<std::string>> curves = std::nullopt;
     /// Kind of the condition.
     Type type = Type::traction;
-    /// Value as a function of the reference position, with two components for traction and
-    /// displacement, one for the other types. Null stands for zero.
+    /// Value as a function of the reference position, with two components for traction,
+    /// displacement and absorbing boundaries, one for the other types. Null stands for zero.
     std::shared_ptr<const dealii::Function<2>> value;
     /// Which components (x, y) a condition of type `displacement` prescribes.
     bool components[2] = {true, true};
+    /// Whether an absorbing boundary is held at rest along its normal only.
+    bool slides_at_rest = false;
+    /// The kind of value of an absorbing boundary.
+    Wave wave = Wave::velocity;
 
     /// Indices of the curves of @p mesh on which it holds.
     std::vector<unsigned int>
@@ -123,6 +143,28 @@ namespace NMM
     is_pressure() const
     {
       return type == Type::pressure || type == Type::follower_pressure;
+    }
+
+    /// Whether it holds displacements, which Nitsche's method imposes, and is no load.
+    bool
+    is_support() const
+    {
+      return type == Type::displacement || holds_normal() || is_absorbing();
+    }
+
+    /// Whether it is a support along the normal only.
+    bool
+    holds_normal() const
+    {
+      return type == Type::normal_displacement ||
+             (is_absorbing() && slides_at_rest);
+    }
+
+    /// Whether it absorbs waves.
+    bool
+    is_absorbing() const
+    {
+      return type == Type::absorbing || type == Type::free_field;
     }
   };
 

@@ -206,9 +206,10 @@ namespace NMM
     /// @}
     /// Where terms with couplings add forces and tangent; null: no term has couplings.
     ForceSink *sink = nullptr;
-    /// C [kg/(m s)], whose pattern lies within that of the tangent: the caller adds C times the
-    /// velocity to the forces. Its dissipation is a part of StepWork. Null: there is none.
-    const dealii::TrilinosWrappers::SparseMatrix *damping = nullptr;
+    /// Matrices [kg/(m s)], whose patterns lie within that of the tangent. Their sum is C: the
+    /// caller adds C times the velocity to the forces. A term appends its own in each assembly,
+    /// and the dissipation is a part of its StepWork.
+    std::vector<const dealii::TrilinosWrappers::SparseMatrix *> damping;
 
     /// K = dr/du of the last assembly with a tangent [Pa].
     const dealii::TrilinosWrappers::SparseMatrix *tangent = nullptr;

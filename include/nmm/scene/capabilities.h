@@ -32,6 +32,7 @@ namespace NMM
     water,
     pores,
     joint_flow,
+    absorbing,
     // Contact
     contact,
     no_contact,

@@ -22,6 +22,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -151,6 +152,10 @@ namespace NMM
     std::string value;
     /// Which components of a displacement are prescribed.
     std::array<bool, 2> components = {{true, true}};
+    /// What the value of an absorbing boundary is; nothing if no wave comes in.
+    std::optional<BoundaryCondition::Wave> wave;
+    /// See BoundaryCondition::slides_at_rest.
+    bool slides_at_rest = false;
     /// The amplitude, and the release of a displacement.
     TimeDependence time;
 

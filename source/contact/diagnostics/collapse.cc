@@ -202,16 +202,15 @@ namespace NMM
               {
                 const BoundaryCondition &condition =
                   problem.boundary_conditions[c];
-                if (condition.type ==
-                    BoundaryCondition::Type::normal_displacement)
+                if (condition.holds_normal())
                   hold(mesh.block(e), invalid_index, x, rule.normals[q]);
-                for (unsigned int d = 0; d < 2; ++d)
-                  if (condition.type == BoundaryCondition::Type::displacement &&
-                      condition.components[d])
-                    hold(mesh.block(e),
-                         invalid_index,
-                         x,
-                         Point<2>::unit_vector(d));
+                else if (condition.is_support())
+                  for (unsigned int d = 0; d < 2; ++d)
+                    if (condition.components[d])
+                      hold(mesh.block(e),
+                           invalid_index,
+                           x,
+                           Point<2>::unit_vector(d));
               }
             }
           }

@@ -302,7 +302,6 @@ namespace
            {std::pair<unsigned int, double>(6, 4.69e-4), {8, 1.41e-4}})
       {
         const double R = reflection_of_mesh(n, is_shear);
-        std::cout << (is_shear ? "S " : "P ") << n << ' ' << R << '\n';
         EXPECT_LT(R, 1.5 * figure) << n << ' ' << is_shear;
       }
   }
@@ -369,52 +368,55 @@ namespace
           u(2 * number[k] + c, c) += 1e6;
     solve(A, u);
 
-    // the waves P and S to the right, then to the left, with unit displacements
-    const double k_p = omega / c_p, k_s = omega / c_s;
-    const double p  = std::sqrt(k_p * k_p - k_y * k_y),
-                 s  = std::sqrt(k_s * k_s - k_y * k_y);
+    // the waves P and S to the right, then to the left, with unit displacements; P may decay
+    const Complex k_p = omega / c_p, k_s = omega / c_s,
+                  s_x       = std::sqrt(k_s * k_s - k_y * k_y);
+    const bool    is_beyond = k_y > omega / c_p;
+    const Complex p_x       = is_beyond ? -i * std::sqrt(k_y * k_y - k_p * k_p)
+                                        : std::sqrt(k_p * k_p - k_y * k_y);
     const auto wave = [&](const unsigned int w, const Point<2> &x, unsigned c) {
-      const double sign = w < 2 ? 1. : -1.;
-      const double k    = sign * (w % 2 == 0 ? p : s);
-      const double size = w % 2 == 0 ? k_p : k_s;
-      const double d =
+      const Complex k    = (w < 2 ? 1. : -1.) * (w % 2 == 0 ? p_x : s_x);
+      const Complex size = w % 2 == 0 ? k_p : k_s;
+      const Complex d =
         w % 2 == 0 ? (c == 0 ? k : k_y) / size : (c == 0 ? -k_y : k) / size;
       return d * std::exp(-i * (k * x[0] + k_y * x[1]));
     };
-    std::vector<Complex> amplitudes[2];
+    // A P wave that decays has not come from the left end.
+    const std::vector<unsigned int> known =
+      is_beyond ? std::vector<unsigned int>{1, 2, 3}
+                : std::vector<unsigned int>{0, 1, 2, 3};
+    ComplexMatrix in(2, 2), out(2, 2);
     for (unsigned int load = 0; load < 2; ++load)
     {
       std::vector<Complex>                           values;
       std::vector<std::pair<Point<2>, unsigned int>> places;
       for (unsigned int k = 0; k < n_covers; ++k)
-        if (base[k] == k && strip.node(k)[0] > 12. && strip.node(k)[0] < 60.)
+        if (base[k] == k && strip.node(k)[0] > 40. && strip.node(k)[0] < 60.)
           for (unsigned int c = 0; c < 2; ++c)
           {
-            places.emplace_back(strip.node(k), c);
+            // phases from the boundary
+            places.emplace_back(strip.node(k) - Tensor<1, 2>({64., 0.}), c);
             values.push_back(u(2 * number[k] + c, load));
           }
-      ComplexMatrix waves(values.size(), 4);
+      ComplexMatrix waves(values.size(), known.size());
       for (unsigned int r = 0; r < values.size(); ++r)
-        for (unsigned int w = 0; w < 4; ++w)
-          // phases from the boundary
-          waves(r, w) = wave(w,
-                             places[r].first - Tensor<1, 2>({64., 0.}),
-                             places[r].second);
-      amplitudes[load] = fit(waves, values);
+        for (unsigned int w = 0; w < known.size(); ++w)
+          waves(r, w) = wave(known[w], places[r].first, places[r].second);
+      const std::vector<Complex> amplitudes = fit(waves, values);
+      // R (P, S to the right) = (P, S to the left) of both loads
+      for (unsigned int w = 0; w < known.size(); ++w)
+        (known[w] < 2 ? in : out)(load, known[w] % 2) = amplitudes[w];
     }
-    // R (P, S to the right) = (P, S to the left) of both loads
-    ComplexMatrix in(2, 2), out(2, 2);
-    for (unsigned int load = 0; load < 2; ++load)
-      for (unsigned int w = 0; w < 2; ++w)
-      {
-        in(load, w)  = amplitudes[load][w];
-        out(load, w) = amplitudes[load][2 + w];
-      }
+    if (is_beyond)
+    {
+      in(0, 0)  = 1.;
+      out(0, 0) = out(0, 1) = in(0, 1) = 0.;
+    }
     solve(in, out);
     const unsigned int from = is_shear ? 1 : 0;
     Reflection result{std::abs(out(from, 0)), std::abs(out(from, 1)), 0.};
     // flux of energy along x: omega^2 rho c^2 k |A|^2 / 2
-    const double of_P = c_p * c_p * p, of_S = c_s * c_s * s;
+    const double of_P = c_p * c_p * p_x.real(), of_S = c_s * c_s * s_x.real();
     result.energy = (of_P * result.P * result.P + of_S * result.S * result.S) /
                     (is_shear ? of_S : of_P);
     return result;
@@ -434,14 +436,19 @@ namespace
          {Case{.25, 30., false, .01603513, .00895437, .00030830},
           Case{.25, 30., true, .13397460, .13397460, .03589838},
           Case{.25, 45., false, .01383858, .07089509, .00393775},
+          Case{.25, 45., true, .42036731, .16936962, .02868607},
           Case{.3, 30., false, .00107961, .01979956, .00023433},
           Case{.3, 30., true, .16746682, .10992919, .03350425},
-          Case{.3, 45., false, .04335879, .07240311, .00554877}})
+          Case{.3, 45., false, .04335879, .07240311, .00554877},
+          Case{.3, 45., true, .37144744, .17140032, .02937807}})
     {
       const Reflection R = oblique_reflection(c.nu, c.theta, c.is_shear);
-      std::cout << c.nu << ' ' << c.theta << ' ' << c.is_shear << ": " << R.P
-                << ' ' << R.S << ' ' << R.energy << '\n';
-      EXPECT_NEAR(R.energy, c.energy, 0.05 * c.energy);
+      EXPECT_NEAR(R.energy, c.energy, 0.05 * c.energy)
+        << c.nu << ' ' << c.theta << ' ' << c.is_shear;
+      // a P wave that decays is small where it is fitted
+      EXPECT_NEAR(R.P, c.P, std::max(5e-4, 5e-3 * c.P))
+        << c.nu << ' ' << c.theta;
+      EXPECT_NEAR(R.S, c.S, 5e-4) << c.nu << ' ' << c.theta;
     }
   }
 
@@ -743,8 +750,8 @@ namespace
       const auto [first, last]      = solid.covers().locally_owned_elements();
       for (unsigned int e = first; e < last; ++e)
       {
-        const Point<2> xi(1. / 3., 1. / 3.);
-        const Point<2> x = solid.mathematical_mesh().reference_to_real(
+        const Point<2> xi = solid.quadrature().rule(e).point(0);
+        const Point<2> x  = solid.mathematical_mesh().reference_to_real(
           solid.manifold_mesh().cell(e), xi);
         // times of the way up, and from the surface down
         const double       up = x[1] < 1. ? x[1] : 1. + 0.5 * (x[1] - 1.);

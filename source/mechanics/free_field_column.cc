@@ -108,17 +108,18 @@ namespace NMM
         matrix->assign(n_nodes(), {{0., 0., 0.}});
       for (unsigned int l = 0; l < layers.size(); ++l)
       {
-        const double h = layers[l].y_1 - layers[l].y_0;
+        const double       h     = layers[l].y_1 - layers[l].y_0;
+        const unsigned int first = 2 * l;
         for (unsigned int i = 0; i < 3; ++i)
           for (unsigned int j = i; j < 3; ++j)
           {
             const double m = layers[l].density * h * of_values[i][j];
-            mass[2 * l + i][j - i] += m;
+            mass[first + i][j - i] += m;
             for (unsigned int c = 0; c < 2; ++c)
             {
               const double k = moduli(layers[l])[c] / h * of_derivatives[i][j];
-              stiffness[c][2 * l + i][j - i] += k;
-              damping[c][2 * l + i][j - i] +=
+              stiffness[c][first + i][j - i] += k;
+              damping[c][first + i][j - i] +=
                 rayleigh.mass * m + rayleigh.stiffness * k;
             }
           }

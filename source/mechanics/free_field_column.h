@@ -16,20 +16,21 @@ namespace NMM
      * shear and in y by compression:
      * @f[ \rho\ddot w_c = (E_c w_c')', \qquad E_x = \mu,\ E_y = \lambda + 2\mu. @f]
      * The top is free. The base has dashpots of (rho E_c)^(1/2), and an incoming wave whose
-     * traction is doubled, as AbsorbingTerm has it. Both components are solved by quadratic elements
-     * and the trapezoidal rule, which is of order 2 and keeps the energy.
+     * traction is doubled, as AbsorbingTerm has it. Both components are solved by quadratic
+     * elements and the trapezoidal rule, which is of order 2 and keeps the energy.
      */
     class FreeFieldColumn
     {
     public:
-      /// A layer from @p y_0 to @p y_1 [m]: density [kg/m^3] and Lame's constants of the plane [Pa].
+      /// A layer from @p y_0 to @p y_1 [m]: density [kg/m^3] and Lame's constants of the plane
+      /// [Pa].
       struct Layer
       {
         double y_0, y_1, density, lambda, mu;
       };
 
-      /// The motion: nodal displacements and velocities of the components x and y. Accelerations are
-      /// those of the forces at the time.
+      /// The motion: nodal displacements and velocities of the components x and y. Accelerations
+      /// are those of the forces at the time.
       struct State
       {
         std::vector<double> w[2], v[2];
@@ -39,11 +40,12 @@ namespace NMM
         serialize(Archive &archive, const unsigned int /*version*/)
         {
           for (unsigned int c = 0; c < 2; ++c)
-            archive &w[c] &v[c];
+            archive &w[c] & v[c];
         }
       };
 
-      /// @p layers in any order. @throws InputError naming @p where for layers with gaps between them.
+      /// @p layers in any order. @throws InputError naming @p where for layers with gaps between
+      /// them.
       FreeFieldColumn(std::vector<Layer>     layers,
                       const RayleighDamping &damping,
                       const std::string     &where);
@@ -71,14 +73,15 @@ namespace NMM
       double
       impedance(unsigned int c) const;
 
-      /// Try a step of the length @p h [s] from the state, with the tractions at the base @p begin and
-      /// @p end [Pa], in which the factor 2 is contained.
+      /// Try a step of the length @p h [s] from the state, with the tractions at the base @p begin
+      /// and @p end [Pa], in which the factor 2 is contained.
       void
       try_step(double                       h,
                const std::array<double, 2> &begin,
                const std::array<double, 2> &end);
 
-      /// Displacement @p c or its velocity at the node @p k, at the @p share of the step that was tried.
+      /// Displacement @p c or its velocity at the node @p k, at the @p share of the step that was
+      /// tried.
       double
       displacement(unsigned int c, unsigned int k, double share) const;
 

@@ -94,8 +94,8 @@ namespace
   }
 
 
-  /// A strip of cells along x, the sides of which are lines of the mesh, so that nothing is cut. Its
-  /// right end absorbs.
+  /// A strip of cells along x, the sides of which are lines of the mesh, so that nothing is cut.
+  /// Its right end absorbs.
   struct Strip
   {
     Body                             body;
@@ -103,8 +103,8 @@ namespace
     std::unique_ptr<MechanicalModel> model;
     unsigned int                     n_cells;
 
-    /// @p n_cells of 1 m, an even number, with lines of the given role across the strip. A line that
-    /// is an interface has the second material on its right.
+    /// @p n_cells of 1 m, an even number, with lines of the given role across the strip. A line
+    /// that is an interface has the second material on its right.
     Strip(const unsigned int               n_cells,
           const std::vector<Material>     &materials,
           const std::vector<unsigned int> &lines = {},
@@ -293,8 +293,8 @@ namespace
   }
 
 
-  // V7: a consistent second-order mesh reflects 4.69e-4 and 1.41e-4 at 6 and 8 elements per wavelength
-  // in one dimension; triangles may have half as much again.
+  // V7: a consistent second-order mesh reflects 4.69e-4 and 1.41e-4 at 6 and 8 elements per
+  // wavelength in one dimension; triangles may have half as much again.
   TEST(AbsorbingBoundary, NormalIncidenceReflectsWhatTheMeshDoes)
   {
     for (const bool is_shear : {false, true})
@@ -316,9 +316,10 @@ namespace
 
 
   /**
-   * Waves with the wave number k_y = k sin(theta) along the boundary in a strip of height H: u(x, y +
-   * H) = e^{-i k_y H} u(x, y), which the unknowns of the upper side are eliminated by. Two loads at the
-   * left end make two different sums of P and S waves, from which the matrix of reflection follows.
+   * Waves with the wave number k_y = k sin(theta) along the boundary in a strip of height H: u(x,
+   * y + H) = e^{-i k_y H} u(x, y), which the unknowns of the upper side are eliminated by. Two
+   * loads at the left end make two different sums of P and S waves, from which the matrix of
+   * reflection follows.
    */
   Reflection
   oblique_reflection(const double nu, const double theta, const bool is_shear)
@@ -497,8 +498,8 @@ namespace
   }
 
 
-  // V9: joints with springs of the stiffness kappa, x = omega Z / (2 kappa): |T| = 1 / (1 + x^2)^(1/2)
-  // of one, and the transfer matrix of five at x = 0.5, a part of the wavelength apart.
+  // V9: joints with springs of the stiffness kappa, x = omega Z / (2 kappa): |T| = 1 / (1 +
+  // x^2)^(1/2) of one, and the transfer matrix of five at x = 0.5, a part of the wavelength apart.
   TEST(AbsorbingBoundary, JointsTransmitWhatPyrakNolteSay)
   {
     struct Case
@@ -578,8 +579,8 @@ namespace
   }
 
 
-  // The conserving scheme has an account that closes to the tolerance of its iteration. Others differ
-  // by an error of their steps.
+  // The conserving scheme has an account that closes to the tolerance of its iteration. Others
+  // differ by an error of their steps.
   TEST(AbsorbingBoundary, AccountOfEnergyClosesMPI)
   {
     for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite})
@@ -657,8 +658,8 @@ namespace
   }
 
 
-  // A block under its weight is held by its base and sides. When it begins to move, it stays where it
-  // is, since the boundaries bear what they did at rest.
+  // A block under its weight is held by its base and sides. When it begins to move, it stays where
+  // it is, since the boundaries bear what they did at rest.
   TEST(AbsorbingBoundary, SolidInEquilibriumStaysAtRestMPI)
   {
     for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite})
@@ -697,8 +698,9 @@ namespace
       }
   }
 
-  // A shear pulse v = sin^2(pi t / T) goes up through two layers between free fields, as it would in a
-  // column: the surface moves by 2 int v, of a stiff base layer and one of the same impedance.
+  // A shear pulse v = sin^2(pi t / T) goes up through two layers between free fields, as it would
+  // in a column: the surface moves by 2 int v, of a stiff base layer and one of the same
+  // impedance.
   TEST(AbsorbingBoundary, WavesPassAlongFreeFieldsMPI)
   {
     constexpr double T = 2., height = 2.;

@@ -10,35 +10,37 @@
 namespace NMM
 {
   /**
-   * The force term of boundaries that absorb waves (BoundaryCondition::Type::absorbing). Beyond them
-   * the solid goes on without end. With the density rho and the moduli of the element at the
+   * The force term of boundaries that absorb waves (BoundaryCondition::Type::absorbing). Beyond
+   * them the solid goes on without end. With the density rho and the moduli of the element at the
    * boundary, of the undeformed state, the traction on the solid is
    * @f[ t = t_s + 2 Z v_i - Z v, \qquad
    *     Z = \rho\,(c_p\,n n^T + c_s\,(1 - n n^T)), \quad
    *     c_p^2 = \frac{\lambda + 2\mu}{\rho}, \quad c_s^2 = \frac{\mu}{\rho}, @f]
    * lambda being that of the plane state (Lysmer & Kuhlemeyer, J. Eng. Mech. Div. ASCE 95 (1969)
    * 859). A wave at normal incidence leaves without reflection, and a plane wave at 30 degrees to
-   * the normal keeps 1e-2 to 0.17 of its amplitude.
+   * the normal keeps up to 0.17 of its amplitude.
    *
    * The factor 2: an incoming wave of velocity v_i exerts the traction Z v_i. The dashpots hold it
-   * back by the same, and the solid is moved by the wave alone only if twice its traction acts. v_i is
-   * the velocity of the incoming wave, which is half of what a free surface that it reaches shows. A
-   * value of the kind BoundaryCondition::Wave::stress is Z v_i itself, and is doubled in the same way.
+   * back by the same, and the solid is moved by the wave alone only if twice its traction acts.
+   * v_i is the velocity of the incoming wave, which is half of what a free surface that it reaches
+   * shows. A value of the kind BoundaryCondition::Wave::stress is Z v_i itself, and is doubled in
+   * the same way.
    *
    * The static part t_s, given by hold(), is what supports exerted before the motion. Their forces
    * on covers are kept, so that a solid in equilibrium stays at rest.
    *
-   * Beside a free field (BoundaryCondition::Type::free_field), a vertical side, a column of the ground
-   * moves by itself, with the layers of the elements at the side and the wave that comes in at its
-   * base. With its velocity v_f and stress sigma_f, which are 0 before the motion,
+   * Beside a free field (BoundaryCondition::Type::free_field), a vertical side, a column of the
+   * ground moves by itself, with the layers of the elements at the side and the wave that comes in
+   * at its base. With its velocity v_f and stress sigma_f, which are 0 before the motion,
    * @f[ t = t_s + \sigma_f n - Z (v - v_f), @f]
    * so that waves that go up pass along the side as if the ground had no end, and what comes from
-   * within leaves (Wolf, Soil-structure-interaction analysis in time domain, 1988). The column does not
-   * feel the solid; it is linear and elastic, see source/mechanics/free_field_column.h.
+   * within leaves (Wolf, Soil-structure-interaction analysis in time domain, 1988). The column
+   * does not feel the solid; it is linear and elastic, see source/mechanics/free_field_column.h.
    *
-   * Normals and areas are those of the reference configuration, in finite kinematics as well. Z v is
-   * a part of C, see AssembledForces::damping, so that all schemes have it, and other damping does not
-   * act on the boundary. Its dissipation is int v Z v. The work of all other parts is that of loads.
+   * Normals and areas are those of the reference configuration, in finite kinematics as well. Z v
+   * is a part of C, see AssembledForces::damping, so that all schemes have it, and other damping
+   * does not act on the boundary. Its dissipation is int v Z v. The work of all other parts is
+   * that of loads.
    *
    * The term is one of motion only: while the solid is at rest, the boundaries are supports
    * (BoundaryCondition::is_support()), which a motion releases from its beginning, see

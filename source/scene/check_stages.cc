@@ -19,6 +19,7 @@ namespace NMM
       none,
       load,
       support,
+      absorbing_boundary,
       ambiguous
     };
 
@@ -26,6 +27,7 @@ namespace NMM
     ConditionKind
     condition_kind(const SceneParameters &parameters, const std::string &name)
     {
+      using Type           = BoundaryCondition::Type;
       ConditionKind result = ConditionKind::none;
       const auto    found  = [&result](const ConditionKind kind) {
         result =
@@ -34,9 +36,11 @@ namespace NMM
       for (const BoundaryConditionParameters &one :
            parameters.boundary_conditions)
         if (one.name == name)
-          found(one.type == BoundaryCondition::Type::displacement ||
-                    one.type == BoundaryCondition::Type::normal_displacement
+          found(one.type == Type::displacement ||
+                    one.type == Type::normal_displacement
                   ? ConditionKind::support
+                : one.type == Type::absorbing || one.type == Type::free_field
+                  ? ConditionKind::absorbing_boundary
                   : ConditionKind::load);
       for (const PointForceParameters &one : parameters.point_forces)
         if (one.time.name == name)
@@ -68,6 +72,12 @@ namespace NMM
                   InputError("'" + name + "' is the name of two conditions",
                              place,
                              "give one of them another name"));
+      AssertThrow(kind != ConditionKind::absorbing_boundary,
+                  InputError("the absorbing boundary '" + name +
+                               "' holds the solid in all stages, and absorbs "
+                               "waves in the motion that follows",
+                             place,
+                             "leave it out"));
       AssertThrow(!adds || kind == ConditionKind::load,
                   InputError("the support '" + name + "' cannot be added",
                              place,

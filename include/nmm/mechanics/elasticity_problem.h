@@ -120,8 +120,6 @@ namespace NMM
     /// Name of the curve of the physical mesh on which the condition holds: a boundary or a hole.
     /// A pressure may also act on an open joint, on both of its faces.
     std::string curve;
-    /// Names of any number of curves on which it holds, instead of `curve`.
-    std::optional<std::vector<std::string>> curves = std::nullopt;
     /// Kind of the condition.
     Type type = Type::traction;
     /// Value as a function of the reference position, with two components for traction,
@@ -133,6 +131,8 @@ namespace NMM
     bool slides_at_rest = false;
     /// The kind of value of an absorbing boundary.
     Wave wave = Wave::velocity;
+    /// Names of any number of curves on which it holds, instead of `curve`.
+    std::optional<std::vector<std::string>> curves = std::nullopt;
 
     /// Indices of the curves of @p mesh on which it holds.
     std::vector<unsigned int>

@@ -60,9 +60,9 @@ namespace NMM
                 "Of water, > 0 [N/m^3].");
     entries.add("Faces",
                 faces,
-                "Outer faces on which the pressure of the table acts: free, "
-                "all boundaries on which no displacement is prescribed, while "
-                "holes are dry; none; or names of boundaries and holes.");
+                "Boundaries and holes on which the pressure of the table acts, "
+                "or none. Empty: all boundaries on which no displacement is "
+                "prescribed, while holes are dry.");
     entries.add("Joint pressure",
                 joint_pressure,
                 joint_pressures,
@@ -176,7 +176,7 @@ namespace NMM
                                              "Water/Given joint pressure");
     if (faces.size() == 1 && faces[0] == "none")
       water.faces.emplace();
-    else if (faces != std::vector<std::string>{"free"})
+    else if (!faces.empty())
       water.faces = faces;
     water.fills_pores = fills_pores;
     return water;

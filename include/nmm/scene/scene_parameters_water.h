@@ -30,8 +30,9 @@ namespace NMM
     std::string table;
     /// Unit weight of water [N/m^3].
     double unit_weight = WaterTable().unit_weight;
-    /// Names of the outer faces it presses on, or one of the words `free` and `none`.
-    std::vector<std::string> faces = {"free"};
+    /// Names of the outer faces it presses on, or the word `none`; empty: those of Water::faces that
+    /// are not given.
+    std::vector<std::string> faces;
     /// Where the pressure in joints comes from.
     JointPressure joint_pressure = JointPressure::table;
     /// Pressure in joints, an expression of x and y [Pa].

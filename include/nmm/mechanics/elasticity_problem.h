@@ -37,6 +37,7 @@
  * | bolt.h, bolt_term.h | the term of rock bolts and anchors |
  * | water.h | the loads of water below a table, on faces, in joints and in pores |
  * | absorbing_term.h | the term of boundaries through which waves leave and come in |
+ * | joint_flow.h, joint_water_term.h | flow in a network of joints, and the term of its pressure |
  * | loading.h | loads, releases and base acceleration as functions of time |
  * | mass_matrix.h | consistent mass matrix |
  * | material_vector.h | positions of material points as functions of the unknowns |

@@ -124,8 +124,7 @@ namespace NMM
       }
       std::vector<bool> is_held(mesh.curves().size(), false);
       for (const BoundaryCondition &condition : problem.boundary_conditions)
-        if (condition.type == BoundaryCondition::Type::displacement ||
-            condition.type == BoundaryCondition::Type::normal_displacement)
+        if (condition.is_support())
           for (const unsigned int c : condition.curves_in(mesh))
             is_held[c] = true;
       std::vector<std::string> result;

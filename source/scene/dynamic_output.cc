@@ -326,7 +326,7 @@ namespace NMM
       if (inelastic_terms() != nullptr)
         evaluator->set_plastic_strain(CurrentStress::plastic_strain(
           *inelastic_terms(), solid->covers(), solid->quadrature()));
-      if (leaving)
+      if (!motion->integrator().state().left_blocks.empty())
         evaluator->hide_blocks(motion->integrator().state().left_blocks);
     }
 

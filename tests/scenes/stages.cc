@@ -92,4 +92,37 @@ namespace
       EXPECT_NEAR(two.at(name), one.at(name), 1e-6 * one.at("max_displacement"))
         << name;
   }
+
+
+  // Fields of a motion have the cells that are left after the excavation.
+  TEST(Stages, WhatIsRemovedIsNotShownInMotion)
+  {
+    const auto n_cells = [](const std::vector<std::string> &further) {
+      std::vector<std::string> arguments = {"--set",
+                                            "Stages/Names=tunnel",
+                                            "--set",
+                                            "Stages/tunnel/Remove "
+                                            "regions=tunnel"};
+      arguments.insert(arguments.end(), further.begin(), further.end());
+      (void)last_state(arguments);
+      std::ifstream     in(NMM_TEST_OUTPUT_DIR "/staged-tunnel/fields.vtu");
+      const std::string text((std::istreambuf_iterator<char>(in)),
+                             std::istreambuf_iterator<char>());
+      const std::string key = "NumberOfCells=\"";
+      const std::size_t at  = text.find(key);
+      EXPECT_NE(at, std::string::npos);
+      return std::atoi(text.c_str() + at + key.size());
+    };
+    const int at_rest = n_cells({});
+    EXPECT_GT(at_rest, 0);
+    EXPECT_EQ(n_cells({"--set",
+                       "Model/Analysis=dynamic",
+                       "--set",
+                       "Materials/rock/Density=2500",
+                       "--set",
+                       "Time/End time=2e-4",
+                       "--set",
+                       "Time/Initial step=1e-4"}),
+              at_rest);
+  }
 } // namespace

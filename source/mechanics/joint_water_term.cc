@@ -1,4 +1,5 @@
 #include <nmm/base/exceptions.h>
+#include <nmm/covers/unknowns.h>
 #include <nmm/covers/weight_functions.h>
 #include <nmm/mechanics/joint_water_term.h>
 #include <nmm/quadrature/element_quadrature.h>
@@ -251,7 +252,7 @@ namespace NMM
         for (unsigned int i = 0; i < face.at_ends[end].size(); ++i)
           for (unsigned int c = 0; c < 2; ++c)
             openings[2 * face.link + end] -=
-              face.at_ends[end][i][c] * u(dofs[2 * i + c]);
+              face.at_ends[end][i][c] * u(dofs[unknown_of(i, c)]);
     }
     dealii::Utilities::MPI::sum(openings, layout->communicator, openings);
     for (unsigned int l = 0; l < present.links.size(); ++l)
@@ -278,8 +279,9 @@ namespace NMM
       for (const unsigned int end : {0u, 1u})
         for (unsigned int i = 0; i < face.integrals[end].size(); ++i)
           for (unsigned int c = 0; c < 2; ++c)
-            local[2 * i + c] += pressure(present.links[face.link].nodes[end]) *
-                                face.integrals[end][i][c];
+            local[unknown_of(i, c)] +=
+              pressure(present.links[face.link].nodes[end]) *
+              face.integrals[end][i][c];
       layout->constraints->distribute_local_to_global(local, dofs, force);
     }
     force.compress(dealii::VectorOperation::add);

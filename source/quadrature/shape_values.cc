@@ -50,8 +50,8 @@ namespace NMM
                            fe.get_name(),
                            "make an FESystem of MathematicalMesh::fe()"));
     const UpdateFlags possible = update_values | update_gradients |
-                                     update_quadrature_points |
-                                     update_JxW_values | update_normal_vectors;
+                                 update_quadrature_points | update_JxW_values |
+                                 update_normal_vectors;
     AssertThrow((flags | possible) == possible,
                 InputError("a manifold element has values, gradients, points, "
                            "JxW values and normal vectors only",

@@ -285,8 +285,8 @@ namespace NMM
       add_weak_form(const std::vector<Row> &rows, std::vector<Bar> &bars)
       {
         const Row library = find(rows, "weak form", "assemble_at_rest"),
-                  values  = find(rows, "weak form", "ElementValues, matrix"),
-                  deal_ii = find(rows, "weak form", "ElementValues, deal.II");
+                  values  = find(rows, "weak form", "ElementValues; matrix"),
+                  deal_ii = find(rows, "weak form", "ElementValues; deal.II");
         const auto with_pattern = [](const Row &row) {
           return row.sparsity + row.assembly;
         };

@@ -1,4 +1,4 @@
-// Assembly of elasticity as a user writes it, with ElementValues, against the library's own.
+// Assembly of elasticity as a user writes it, with ElementValues; against the library's own.
 
 #include <nmm/quadrature/element_values.h>
 #include <nmm/quadrature/joint_values.h>
@@ -70,8 +70,8 @@ namespace NMM
         row.kinematics = "small";
         row.method     = way == Way::library ? "assemble_at_rest()"
                          : way == Way::own_matrix
-                           ? "ElementValues, matrix of covers"
-                           : "ElementValues, deal.II's matrix";
+                           ? "ElementValues; matrix of covers"
+                           : "ElementValues; deal.II's matrix";
         const dealii::FESystem<2> fe(model.mathematical_mesh->fe(), 2);
         const dealii::UpdateFlags flags =
           dealii::update_gradients | dealii::update_JxW_values;

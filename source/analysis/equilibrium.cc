@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 namespace NMM
 {
@@ -127,6 +128,11 @@ namespace NMM
     [[noreturn]] void
     explain(const NumericalFailure &error);
 
+    /// Checks that supports which are not released in @p loads hold all blocks, if nothing else can.
+    /// @throws NumericalFailure that names a block.
+    void
+    check_that_supports_hold(const LoadAmplitudes &loads) const;
+
     /// Checks that no block is without contact if only contact holds blocks. @throws
     /// NumericalFailure with @p reason and the block.
     void
@@ -153,6 +159,27 @@ namespace NMM
         : "set a lower 'Contact/Shear stiffness' or a smaller 'Load "
           "steps/Smallest step', or let blocks move with "
           "'Model/Analysis = relaxation'");
+  }
+
+
+  void
+  Equilibrium::Data::check_that_supports_hold(const LoadAmplitudes &loads) const
+  {
+    if (contact != nullptr || !further->pointers().empty())
+      return;
+    const auto keep = [](auto &list, const std::vector<bool> &released) {
+      const auto all = std::exchange(list, {});
+      for (std::size_t i = 0; i < all.size(); ++i)
+        if (released.empty() || !released[i])
+          list.push_back(all[i]);
+    };
+    ElasticityProblem left = problem;
+    keep(left.boundary_conditions, loads.released_conditions);
+    keep(left.fixed_points, loads.released_fixed_points);
+    const FiniteElasticity check(solid.covers(),
+                                 solid.quadrature(),
+                                 solid.constraints(),
+                                 left);
   }
 
 
@@ -250,6 +277,8 @@ namespace NMM
   void
   Equilibrium::begin_stage(const StageChange &change)
   {
+    if (change.loads)
+      data->check_that_supports_hold(*change.loads);
     const double end = data->reached + 1.;
     data->loads->begin_stage(data->reached, end, change.loads);
     if (data->alone)

@@ -60,7 +60,8 @@ namespace NMM
           &after_step = {});
 
     /// Begin a stage at the last solution: @p change is complete where the load factor has grown by 1.
-    /// @throws as StaticSystem::begin_stage().
+    /// @throws as StaticSystem::begin_stage(), and NumericalFailure if a block loses its last support
+    /// and there is no contact and no further term.
     void
     begin_stage(const StageChange &change);
 

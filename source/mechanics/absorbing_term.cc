@@ -72,22 +72,12 @@ namespace NMM
       Vector       forces;
     };
 
-    /// A column, and its forces on the solid.
+    /// A column, and the traction of the wave at its base.
     struct FreeField
     {
-      /// The forces of a unit velocity, or displacement, of a component at a node of the column, on
-      /// owned unknowns.
-      struct Share
-      {
-        unsigned int                                 component, node;
-        bool                                         is_velocity;
-        std::vector<std::pair<unsigned int, double>> forces;
-      };
-
-      unsigned int       condition;
-      FreeFieldColumn    column;
-      Tensor<1, 2>       wave;
-      std::vector<Share> shares;
+      unsigned int    condition;
+      FreeFieldColumn column;
+      Tensor<1, 2>    wave;
     };
 
     Data(const CoverSystem                    &covers,
@@ -101,20 +91,16 @@ namespace NMM
     void
     find_edges();
 
-    /// Add the dashpots of all edges, or else the forces of a traction on the edges of a condition.
+    /// Add the dashpots of all edges, or else the forces of a traction on the edges of a condition, to
+    /// the assembly.
     void
-    add(internal::CoverMatrixAssembler &assembler,
-        unsigned int                    condition = invalid_index,
-        const Traction                 &traction  = {}) const;
+    add(unsigned int condition = invalid_index, const Traction &traction = {});
 
     void
     assemble_boundaries();
 
     void
     make_free_fields(const RayleighDamping &damping);
-
-    void
-    make_shares(FreeField &field, internal::CoverMatrixAssembler &assembler);
 
     double
     amplitude(unsigned int condition, double t) const;
@@ -142,11 +128,12 @@ namespace NMM
     std::vector<bool>                     absent_blocks;
     std::vector<Edge>                     edges;
     /// The dashpots [kg/(m s)], and the right-hand side of their assembly.
-    Matrix                 dashpots;
-    Vector                 rhs;
-    std::vector<Wave>      waves;
-    std::vector<FreeField> free_fields;
-    Vector                 held, forces;
+    Matrix                         dashpots;
+    Vector                         rhs;
+    internal::CoverMatrixAssembler assembler;
+    std::vector<Wave>              waves;
+    std::vector<FreeField>         free_fields;
+    Vector                         held, forces;
     /// Time at the beginning of the step, and its length [s].
     double begin_of_step = 0., length_of_step = 0.;
   };
@@ -160,9 +147,13 @@ namespace NMM
     , layout(&layout)
     , problem(&problem)
     , amplitudes(std::move(amplitudes))
+    , assembler(covers, *layout.constraints)
     , held(layout.locally_owned, layout.communicator)
     , forces(held)
   {
+    assembler.ignore_inhomogeneities();
+    assembler.leave_empty_rows();
+    assembler.build(dashpots, rhs);
     find_edges();
     assemble_boundaries();
   }
@@ -199,9 +190,8 @@ namespace NMM
 
 
   void
-  AbsorbingTerm::Data::add(internal::CoverMatrixAssembler &assembler,
-                           const unsigned int              condition,
-                           const Traction                 &traction) const
+  AbsorbingTerm::Data::add(const unsigned int condition,
+                           const Traction    &traction)
   {
     const MathematicalMesh &cells = covers->manifold_mesh().mathematical_mesh();
     const unsigned int      n     = cells.n_covers_per_cell();
@@ -240,12 +230,8 @@ namespace NMM
   void
   AbsorbingTerm::Data::assemble_boundaries()
   {
-    internal::CoverMatrixAssembler assembler(*covers, *layout->constraints);
-    assembler.ignore_inhomogeneities();
-    assembler.leave_empty_rows();
-    assembler.build(dashpots, rhs);
     assembler.reset();
-    add(assembler);
+    add();
     assembler.compress();
     waves.clear();
     for (unsigned int c = 0; c < problem->boundary_conditions.size(); ++c)
@@ -255,7 +241,7 @@ namespace NMM
           condition.value == nullptr)
         continue;
       assembler.reset(/* with_matrix = */ false);
-      add(assembler, c, [&](const Edge &edge, const unsigned int q) {
+      add(c, [&](const Edge &edge, const unsigned int q) {
         return twice_the_wave(condition,
                               place(edge, q),
                               impedance(edge.density,
@@ -265,8 +251,6 @@ namespace NMM
       assembler.compress(/* with_matrix = */ false);
       waves.push_back({c, rhs});
     }
-    for (FreeField &field : free_fields)
-      make_shares(field, assembler);
   }
 
 
@@ -306,7 +290,7 @@ namespace NMM
                   InputError("The side of a free field is not vertical",
                              where,
                              "make it so, or set 'Type = absorbing'"));
-      FreeField field{c, FreeFieldColumn(layers, damping, where), {}, {}};
+      FreeField field{c, FreeFieldColumn(layers, damping, where), {}};
       if (condition.value != nullptr)
       {
         Tensor<2, 2> Z;
@@ -316,49 +300,6 @@ namespace NMM
       }
       free_fields.push_back(std::move(field));
     }
-    if (!free_fields.empty())
-      assemble_boundaries();
-  }
-
-
-  void
-  AbsorbingTerm::Data::make_shares(FreeField                      &field,
-                                   internal::CoverMatrixAssembler &assembler)
-  {
-    field.shares.clear();
-    for (unsigned int k = 0; k < field.column.n_nodes(); ++k)
-      for (unsigned int c = 0; c < 2; ++c)
-        for (const bool is_velocity : {false, true})
-        {
-          assembler.reset(/* with_matrix = */ false);
-          add(assembler,
-              field.condition,
-              [&](const Edge &edge, const unsigned int q) {
-                const FreeFieldColumn::Place at =
-                  field.column.find(place(edge, q)[1]);
-                Tensor<1, 2>        t;
-                const Tensor<1, 2> &n = edge.rule.normals[q];
-                if (k < at.first_node || k > at.first_node + 2)
-                  return t;
-                const unsigned int i = k - at.first_node;
-                if (is_velocity)
-                {
-                  Tensor<1, 2> v;
-                  v[c] = at.values[i];
-                  return impedance(edge.density, edge.moduli, n) * v;
-                }
-                // sigma_xy = mu w_x', sigma_xx = lambda w_y' on a vertical side
-                t[1 - c] = (c == 0 ? edge.moduli.mu : edge.moduli.lambda) *
-                           at.derivatives[i] * n[0];
-                return t;
-              });
-          assembler.compress(/* with_matrix = */ false);
-          FreeField::Share share{c, k, is_velocity, {}};
-          for (const auto i : layout->locally_owned)
-            if (rhs(i) != 0.)
-              share.forces.emplace_back(i, rhs(i));
-          field.shares.push_back(std::move(share));
-        }
   }
 
 
@@ -392,16 +333,22 @@ namespace NMM
     const double share =
       length_of_step > 0. ? (t - begin_of_step) / length_of_step : 0.;
     for (const FreeField &field : free_fields)
-      for (const FreeField::Share &part : field.shares)
-      {
-        const double value =
-          part.is_velocity
-            ? field.column.velocity(part.component, part.node, share)
-            : field.column.displacement(part.component, part.node, share);
-        for (const auto &[i, force] : part.forces)
-          forces(i) -= value * force;
-      }
-    forces.compress(dealii::VectorOperation::add);
+    {
+      assembler.reset(/* with_matrix = */ false);
+      add(field.condition, [&](const Edge &edge, const unsigned int q) {
+        const Tensor<1, 2>           &n = edge.rule.normals[q];
+        const FreeFieldColumn::Motion motion =
+          field.column.at(place(edge, q)[1], share);
+        Tensor<1, 2> t =
+          impedance(edge.density, edge.moduli, n) * motion.velocity;
+        // sigma_xx = lambda w_y' and sigma_xy = mu w_x' on a vertical side
+        t[0] += edge.moduli.lambda * motion.strain[1] * n[0];
+        t[1] += edge.moduli.mu * motion.strain[0] * n[0];
+        return t;
+      });
+      assembler.compress(/* with_matrix = */ false);
+      forces -= rhs;
+    }
   }
 
 

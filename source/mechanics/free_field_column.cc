@@ -10,46 +10,12 @@ namespace NMM
   {
     namespace
     {
-      /// Solve A x = b for a symmetric positive definite A with two bands, by elimination without
-      /// pivots. A[i][k] is the entry (i, i + k).
-      std::vector<double>
-      solve(std::vector<std::array<double, 3>> A, std::vector<double> b)
-      {
-        const unsigned int n = A.size();
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int k = 1; k < 3 && i + k < n; ++k)
-          {
-            const double factor = A[i][k] / A[i][0];
-            for (unsigned int l = k; l < 3 && i + l < n; ++l)
-              A[i + k][l - k] -= factor * A[i][l];
-            b[i + k] -= factor * b[i];
-          }
-        for (unsigned int i = n; i-- > 0;)
-        {
-          for (unsigned int k = 1; k < 3 && i + k < n; ++k)
-            b[i] -= A[i][k] * b[i + k];
-          b[i] /= A[i][0];
-        }
-        return b;
-      }
+      using Vector = Eigen::Map<Eigen::VectorXd>;
 
-
-      /// Subtract A x from @p b.
-      void
-      subtract(const std::vector<std::array<double, 3>> &A,
-               const std::vector<double>                &x,
-               std::vector<double>                      &b)
+      Vector
+      map(std::vector<double> &values)
       {
-        const unsigned int n = A.size();
-        for (unsigned int i = 0; i < n; ++i)
-        {
-          b[i] -= A[i][0] * x[i];
-          for (unsigned int k = 1; k < 3 && i + k < n; ++k)
-          {
-            b[i] -= A[i][k] * x[i + k];
-            b[i + k] -= A[i][k] * x[i];
-          }
-        }
+        return {values.data(), static_cast<Eigen::Index>(values.size())};
       }
 
 
@@ -103,29 +69,35 @@ namespace NMM
       constexpr double of_derivatives[3][3] = {{7. / 3., -8. / 3., 1. / 3.},
                                                {-8. / 3., 16. / 3., -8. / 3.},
                                                {1. / 3., -8. / 3., 7. / 3.}};
-      for (Banded *matrix :
-           {&mass, &stiffness[0], &stiffness[1], &damping[0], &damping[1]})
-        matrix->assign(n_nodes(), {{0., 0., 0.}});
+      std::vector<Eigen::Triplet<double>> masses, stiffnesses[2];
       for (unsigned int l = 0; l < layers.size(); ++l)
-      {
-        const double       h     = layers[l].y_1 - layers[l].y_0;
-        const unsigned int first = 2 * l;
         for (unsigned int i = 0; i < 3; ++i)
-          for (unsigned int j = i; j < 3; ++j)
+          for (unsigned int j = 0; j < 3; ++j)
           {
-            const double m = layers[l].density * h * of_values[i][j];
-            mass[first + i][j - i] += m;
+            const double       h     = layers[l].y_1 - layers[l].y_0;
+            const unsigned int first = 2 * l;
+            masses.emplace_back(first + i,
+                                first + j,
+                                layers[l].density * h * of_values[i][j]);
             for (unsigned int c = 0; c < 2; ++c)
-            {
-              const double k = moduli(layers[l])[c] / h * of_derivatives[i][j];
-              stiffness[c][first + i][j - i] += k;
-              damping[c][first + i][j - i] +=
-                rayleigh.mass * m + rayleigh.stiffness * k;
-            }
+              stiffnesses[c].emplace_back(first + i,
+                                          first + j,
+                                          moduli(layers[l])[c] / h *
+                                            of_derivatives[i][j]);
           }
-      }
+      const auto make = [this](const auto &entries) {
+        Matrix result(n_nodes(), n_nodes());
+        result.setFromTriplets(entries.begin(), entries.end());
+        return result;
+      };
+      mass        = make(masses);
+      mass_solver = std::make_unique<Solver>(mass);
       for (unsigned int c = 0; c < 2; ++c)
-        damping[c][0][0] += impedance(c);
+      {
+        stiffness[c] = make(stiffnesses[c]);
+        damping[c]   = rayleigh.mass * mass + rayleigh.stiffness * stiffness[c];
+        damping[c].coeffRef(0, 0) += impedance(c);
+      }
     }
 
 
@@ -136,18 +108,37 @@ namespace NMM
     }
 
 
-    FreeFieldColumn::Place
-    FreeFieldColumn::find(const double y) const
+    FreeFieldColumn::Motion
+    FreeFieldColumn::at(const double y, const double share) const
     {
-      unsigned int l = 0;
-      while (l + 1 < layers.size() && y > layers[l].y_1)
-        ++l;
-      const double h = layers[l].y_1 - layers[l].y_0;
-      const double s = (y - layers[l].y_0) / h;
-      return {2 * l,
-              {(1. - s) * (1. - 2. * s), 4. * s * (1. - s), s * (2. * s - 1.)},
-              {(4. * s - 3.) / h, (4. - 8. * s) / h, (4. * s - 1.) / h},
-              moduli(layers[l])};
+      const auto above =
+        std::lower_bound(layers.begin(),
+                         layers.end() - 1,
+                         y,
+                         [](const Layer &layer, const double place) {
+                           return layer.y_1 < place;
+                         });
+      const double h = above->y_1 - above->y_0, s = (y - above->y_0) / h;
+      const double values[3]      = {(1. - s) * (1. - 2. * s),
+                                     4. * s * (1. - s),
+                                     s * (2. * s - 1.)},
+                   derivatives[3] = {(4. * s - 3.) / h,
+                                     (4. - 8. * s) / h,
+                                     (4. * s - 1.) / h};
+      Motion             result;
+      const unsigned int first = 2 * (above - layers.begin());
+      const auto         mean  = [share](const double a, const double b) {
+        return (1. - share) * a + share * b;
+      };
+      for (unsigned int c = 0; c < 2; ++c)
+        for (unsigned int i = 0; i < 3; ++i)
+        {
+          const unsigned int k = first + i;
+          result.velocity[c] += values[i] * mean(state.v[c][k], tried.v[c][k]);
+          result.strain[c] +=
+            derivatives[i] * mean(state.w[c][k], tried.w[c][k]);
+        }
+      return result;
     }
 
 
@@ -156,56 +147,29 @@ namespace NMM
                               const std::array<double, 2> &begin,
                               const std::array<double, 2> &end)
     {
-      tried = state;
+      if (h != factorized_step)
+        for (unsigned int c = 0; c < 2; ++c)
+          step_solvers[c] = std::make_unique<Solver>(
+            Matrix(mass + 0.5 * h * damping[c] + 0.25 * h * h * stiffness[c]));
+      factorized_step = h;
+      tried           = state;
       for (unsigned int c = 0; c < 2; ++c)
       {
+        Vector     w = map(tried.w[c]), v = map(tried.v[c]);
+        const auto force = [&](const double at_base) {
+          Eigen::VectorXd result = -(damping[c] * v) - stiffness[c] * w;
+          result[0] += at_base;
+          return result;
+        };
         // The acceleration at the beginning is that of the wave then, which may jump.
-        std::vector<double> force(n_nodes(), 0.);
-        force[0] = begin[c];
-        subtract(damping[c], state.v[c], force);
-        subtract(stiffness[c], state.w[c], force);
-        const std::vector<double> a_0 = solve(mass, force);
+        const Eigen::VectorXd a_0 = mass_solver->solve(force(begin[c]));
         // w_1 = w + h^2 / 4 a_1, v_1 = v + h / 2 a_1
-        std::vector<double> &w = tried.w[c], &v = tried.v[c];
-        for (unsigned int k = 0; k < n_nodes(); ++k)
-        {
-          w[k] += h * v[k] + 0.25 * h * h * a_0[k];
-          v[k] += 0.5 * h * a_0[k];
-        }
-        std::fill(force.begin(), force.end(), 0.);
-        force[0] = end[c];
-        subtract(damping[c], v, force);
-        subtract(stiffness[c], w, force);
-        Banded sum = mass;
-        for (unsigned int k = 0; k < n_nodes(); ++k)
-          for (unsigned int b = 0; b < 3; ++b)
-            sum[k][b] +=
-              0.5 * h * damping[c][k][b] + 0.25 * h * h * stiffness[c][k][b];
-        const std::vector<double> a_1 = solve(sum, force);
-        for (unsigned int k = 0; k < n_nodes(); ++k)
-        {
-          w[k] += 0.25 * h * h * a_1[k];
-          v[k] += 0.5 * h * a_1[k];
-        }
+        w += h * v + 0.25 * h * h * a_0;
+        v += 0.5 * h * a_0;
+        const Eigen::VectorXd a_1 = step_solvers[c]->solve(force(end[c]));
+        w += 0.25 * h * h * a_1;
+        v += 0.5 * h * a_1;
       }
-    }
-
-
-    double
-    FreeFieldColumn::displacement(const unsigned int c,
-                                  const unsigned int k,
-                                  const double       share) const
-    {
-      return (1. - share) * state.w[c][k] + share * tried.w[c][k];
-    }
-
-
-    double
-    FreeFieldColumn::velocity(const unsigned int c,
-                              const unsigned int k,
-                              const double       share) const
-    {
-      return (1. - share) * state.v[c][k] + share * tried.v[c][k];
     }
   } // namespace internal
 } // namespace NMM

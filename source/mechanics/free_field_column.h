@@ -3,7 +3,11 @@
 
 #include <nmm/mechanics/loading.h>
 
+#include <deal.II/base/tensor.h>
+
+#include <Eigen/SparseCholesky>
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -57,18 +61,6 @@ namespace NMM
         return 2 * layers.size() + 1;
       }
 
-      /// A place in the column: the first of the three nodes of its layer, and the values and
-      /// derivatives of their functions.
-      struct Place
-      {
-        unsigned int          first_node;
-        double                values[3], derivatives[3];
-        std::array<double, 2> moduli;
-      };
-
-      Place
-      find(double y) const;
-
       /// The dashpots of the base (rho E_c)^(1/2) [Pa s/m].
       double
       impedance(unsigned int c) const;
@@ -80,13 +72,16 @@ namespace NMM
                const std::array<double, 2> &begin,
                const std::array<double, 2> &end);
 
-      /// Displacement @p c or its velocity at the node @p k, at the @p share of the step that was
-      /// tried.
-      double
-      displacement(unsigned int c, unsigned int k, double share) const;
+      /// The motion at a place and time.
+      struct Motion
+      {
+        /// Velocity [m/s], and derivative of the displacement by y [-].
+        dealii::Tensor<1, 2> velocity, strain;
+      };
 
-      double
-      velocity(unsigned int c, unsigned int k, double share) const;
+      /// That at @p y [m], at the @p share of the step that was tried.
+      Motion
+      at(double y, double share) const;
 
       /// Accept the step.
       void
@@ -98,14 +93,17 @@ namespace NMM
       State state, tried;
 
     private:
-      /// A symmetric matrix with two bands beside its diagonal.
-      using Banded = std::vector<std::array<double, 3>>;
+      using Matrix = Eigen::SparseMatrix<double>;
+      using Solver = Eigen::SimplicialLDLT<Matrix>;
 
       void
       make_matrices(const RayleighDamping &damping);
 
       std::vector<Layer> layers;
-      Banded             mass, stiffness[2], damping[2];
+      Matrix             mass, stiffness[2], damping[2];
+      /// Factors of the mass, and of the matrices of a step of the length `factorized_step` [s].
+      std::unique_ptr<Solver> mass_solver, step_solvers[2];
+      double                  factorized_step = 0.;
     };
   } // namespace internal
 } // namespace NMM

@@ -81,7 +81,9 @@ namespace NMM
     present.unit_weight = water.table.unit_weight;
     present.viscosity   = water.viscosity;
     find_links(solid);
+    is_in_air.resize(nodes.size(), false);
     set_heads(solid);
+    set_links();
     force.reinit(layout.locally_owned, layout.communicator);
   }
 
@@ -104,8 +106,7 @@ namespace NMM
       return place->second;
     };
     using Key = std::tuple<unsigned int, unsigned int, unsigned int>;
-    std::map<Key, unsigned int> link_of;
-    std::vector<unsigned int>   n_faces;
+    std::map<Key, unsigned int> edge_at;
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
       for (const ElementEdge &edge : mesh.edges(e))
       {
@@ -117,31 +118,69 @@ namespace NMM
           continue;
         const unsigned int a = node(edge.start), b = node(edge.end);
         const auto [place, is_new] =
-          link_of.emplace(Key(std::min(a, b), std::max(a, b), edge.curve_set),
-                          present.links.size());
+          edge_at.emplace(Key(std::min(a, b), std::max(a, b), edge.curve_set),
+                          edges.size());
         if (is_new)
-        {
-          present.links.push_back({{a, b}, L, {0., 0.}});
-          names.push_back(mesh.physical_mesh().curves()[joint].name);
-          n_faces.push_back(0);
-        }
-        ++n_faces[place->second];
+          edges.push_back(
+            {{{a, b}, L, {0., 0.}}, mesh.physical_mesh().curves()[joint].name});
+        edges[place->second].blocks.push_back(mesh.block(e));
         if (e >= first && e < last)
           add_face(place->second, e, edge);
       }
-    for (unsigned int l = 0; l < n_faces.size(); ++l)
-      AssertThrow(n_faces[l] == 2,
-                  InputError("the faces of joint '" + names[l] +
+    for (const Edge &edge : edges)
+      AssertThrow(edge.blocks.size() == 2,
+                  InputError("the faces of joint '" + edge.joint +
                                "' are not cut by the same triangles, so that "
                                "its aperture is not known",
-                             to_string(nodes[present.links[l].nodes[0]]),
+                             to_string(nodes[edge.link.nodes[0]]),
                              "let blocks share one mesh: 'Covers/Own meshes = "
                              "never'"));
   }
 
 
   void
-  JointWaterTerm::add_face(const unsigned int link,
+  JointWaterTerm::set_links()
+  {
+    present.links.clear();
+    names.clear();
+    link_of_edge.assign(edges.size(), invalid_index);
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      present.nodes[k].is_in_air = is_in_air[k];
+    for (unsigned int i = 0; i < edges.size(); ++i)
+    {
+      const Edge &edge    = edges[i];
+      const auto  is_gone = [&](const unsigned int block) {
+        return !absent_blocks.empty() && absent_blocks[block];
+      };
+      if (std::any_of(edge.blocks.begin(), edge.blocks.end(), is_gone))
+      {
+        for (const unsigned int node : edge.link.nodes)
+          present.nodes[node].is_in_air = true;
+        continue;
+      }
+      link_of_edge[i] = present.links.size();
+      present.links.push_back(edge.link);
+      names.push_back(edge.joint);
+    }
+  }
+
+
+  void
+  JointWaterTerm::set_presence(const Presence &presence)
+  {
+    if (presence.absent_blocks == absent_blocks)
+      return;
+    absent_blocks = presence.absent_blocks;
+    set_links();
+    // Until the flow is computed again, pressures are those before, without what has gone.
+    found.flows.assign(present.links.size(), 0.);
+    if (!found.heads.empty())
+      assemble_force();
+  }
+
+
+  void
+  JointWaterTerm::add_face(const unsigned int number,
                            const unsigned int element,
                            const ElementEdge &edge)
   {
@@ -151,9 +190,10 @@ namespace NMM
                        n = cells.n_covers_per_cell();
     const EdgeRule rule =
       make_edge_rule(edge, cell_frame(mesh, element), 2 * degree);
-    const bool is_turned = nodes[present.links[link].nodes[0]] != edge.start;
-    Face       face;
-    face.link    = link;
+    const auto &ends      = edges[number].link.nodes;
+    const bool  is_turned = nodes[ends[0]] != edge.start;
+    Face        face;
+    face.edge    = number;
     face.element = element;
     double w[WeightFunctions::max_per_cell];
     for (const unsigned int end : {0u, 1u})
@@ -173,8 +213,8 @@ namespace NMM
     {
       WeightFunctions::values(degree, rule.points[q], w);
       const Point<2> x       = cells.reference_to_real(cell, rule.points[q]);
-      const double   from[2] = {x.distance(nodes[present.links[link].nodes[0]]),
-                                x.distance(nodes[present.links[link].nodes[1]])};
+      const double   from[2] = {x.distance(nodes[ends[0]]),
+                                x.distance(nodes[ends[1]])};
       for (const unsigned int end : {0u, 1u})
         for (unsigned int i = 0; i < n; ++i)
           face.integrals[end][i] -= from[1 - end] / (from[0] + from[1]) *
@@ -201,7 +241,7 @@ namespace NMM
       if (role == CurveRole::boundary && level >= x[1])
         node.head = level;
       else
-        node.is_in_air = true;
+        is_in_air[place->second] = true;
     };
     for (unsigned int e = 0; e < mesh.n_elements(); ++e)
       for (const ElementEdge &edge : mesh.edges(e))
@@ -247,11 +287,14 @@ namespace NMM
     std::vector<double> openings(2 * present.links.size(), 0.);
     for (const Face &face : faces)
     {
+      const unsigned int link = link_of_edge[face.edge];
+      if (link == invalid_index)
+        continue;
       covers->get_dof_indices(face.element, 2, dofs);
       for (const unsigned int end : {0u, 1u})
         for (unsigned int i = 0; i < face.at_ends[end].size(); ++i)
           for (unsigned int c = 0; c < 2; ++c)
-            openings[2 * face.link + end] -=
+            openings[2 * link + end] -=
               face.at_ends[end][i][c] * u(dofs[unknown_of(i, c)]);
     }
     dealii::Utilities::MPI::sum(openings, layout->communicator, openings);
@@ -269,18 +312,28 @@ namespace NMM
     last_change = 0.;
     for (unsigned int k = 0; k < nodes.size(); ++k)
       last_change = std::max(last_change, std::abs(pressure(k) - before[k]));
+    assemble_force();
+  }
 
+
+  void
+  JointWaterTerm::assemble_force()
+  {
+    std::vector<dealii::types::global_dof_index> dofs;
+    dealii::Vector<double>                       local;
     force = 0.;
-    dealii::Vector<double> local;
     for (const Face &face : faces)
     {
+      const unsigned int link = link_of_edge[face.edge];
+      if (link == invalid_index)
+        continue;
       covers->get_dof_indices(face.element, 2, dofs);
       local.reinit(dofs.size());
       for (const unsigned int end : {0u, 1u})
         for (unsigned int i = 0; i < face.integrals[end].size(); ++i)
           for (unsigned int c = 0; c < 2; ++c)
             local[unknown_of(i, c)] +=
-              pressure(present.links[face.link].nodes[end]) *
+              pressure(present.links[link].nodes[end]) *
               face.integrals[end][i][c];
       layout->constraints->distribute_local_to_global(local, dofs, force);
     }

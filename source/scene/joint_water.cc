@@ -1,8 +1,10 @@
+#include <nmm/base/exceptions.h>
 #include <nmm/output/csv_series.h>
 
 #include <algorithm>
 #include <scene/bolts.h>
 #include <scene/joint_water.h>
+#include <scene/parsing.h>
 #include <sstream>
 
 namespace NMM
@@ -56,11 +58,30 @@ namespace NMM
     }
 
 
-    bool
-    SceneJointWater::agrees() const
+    void
+    SceneJointWater::repeat_until_flow_agrees(
+      Equilibrium                                            &equilibrium,
+      const std::function<void(const ContactStep &,
+                               const Equilibrium::Vector &)> &after_step) const
     {
-      constexpr double tolerance = 1e-6;
-      return term->change() <= tolerance * largest_pressure();
+      constexpr unsigned int max_repetitions = 100;
+      constexpr double       tolerance       = 1e-6;
+      LoadSteps              again;
+      again.leaves_out_reached = false;
+      again.load_factors       = {equilibrium.load_factor()};
+      for (unsigned int i = 0; term->change() > tolerance * largest_pressure();
+           ++i)
+      {
+        AssertThrow(i < max_repetitions,
+                    NumericalFailure(
+                      "The flow in joints and their apertures do not agree "
+                      "after " +
+                        std::to_string(i) + " repetitions: " + progress(),
+                      "load factor " + to_text(equilibrium.load_factor()),
+                      "choose a higher 'Contact/Normal stiffness', or a higher "
+                      "'Water/Residual aperture'"));
+        equilibrium.run(again, after_step);
+      }
     }
 
 
@@ -130,17 +151,17 @@ namespace NMM
 
 
     std::vector<TermMaker>
-    further_terms(const Scene &scene, const bool is_at_rest)
+    further_terms(const Scene &scene)
     {
       std::vector<TermMaker> result =
-        SceneBolts::makers(scene,
-                           is_at_rest ? SceneBolts::Installed::in_stages
-                                      : SceneBolts::Installed::before);
+        SceneBolts::makers(scene, SceneBolts::Installed::before);
       if (has_flow(scene))
         result.push_back(
-          [&scene, is_at_rest](const Solid &solid, const ModelLayout &layout) {
+          [&scene](const Solid &solid, const ModelLayout &layout) {
             return std::make_unique<JointWaterTerm>(
-              solid, layout, scene.parameters().water.make_flow(is_at_rest));
+              solid,
+              layout,
+              scene.parameters().water.make_flow(/* is_at_rest = */ false));
           });
       return result;
     }

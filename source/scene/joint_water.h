@@ -1,11 +1,12 @@
 #ifndef nmm_source_scene_joint_water_h
 #define nmm_source_scene_joint_water_h
 
-#include <nmm/analysis/further_terms.h>
+#include <nmm/analysis/equilibrium.h>
 #include <nmm/mechanics/joint_water_term.h>
 #include <nmm/output/output_directory.h>
 #include <nmm/scene/scene.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,10 +30,15 @@ namespace NMM
       TermMaker
       maker(bool is_at_rest);
 
-      /// Whether the flow at the beginning of the last step gave the same pressures as the one before,
-      /// to 1e-6 of the largest one.
-      bool
-      agrees() const;
+      /// Repeats the last load step of @p equilibrium until the flow at its beginning gives the same
+      /// pressures as the one before, to 1e-6 of the largest one. @throws NumericalFailure if it
+      /// does not.
+      void
+      repeat_until_flow_agrees(
+        Equilibrium                                            &equilibrium,
+        const std::function<void(const ContactStep &,
+                                 const Equilibrium::Vector &)> &after_step)
+        const;
 
       /// What the last state was, for a row of progress.
       std::string
@@ -54,9 +60,10 @@ namespace NMM
     };
 
 
-    /// The makers of all terms of @p scene that no table shows: bolts, and water that flows in joints.
+    /// The makers of terms in motion of which no table is written: bolts, and water that flows in
+    /// joints.
     std::vector<TermMaker>
-    further_terms(const Scene &scene, bool is_at_rest);
+    further_terms(const Scene &scene);
   } // namespace internal
 } // namespace NMM
 

@@ -9,6 +9,7 @@
 #include <scene/current_stress.h>
 #include <scene/nonlinear_analysis.h>
 #include <scene/parsing.h>
+#include <scene/static_start.h>
 #include <sstream>
 
 namespace NMM
@@ -120,53 +121,30 @@ namespace NMM
         report_initial_balance(equilibrium->initial_forces());
       try
       {
+        const auto after_step = [this](const ContactStep &step,
+                                       const Vector &u) { add_step(step, u); };
+        const auto agree      = [&]() {
+          if (joint_water)
+            joint_water->repeat_until_flow_agrees(*equilibrium, after_step);
+        };
         equilibrium->run_stages(
           scene.parameters().load_steps.load_steps(),
           stages,
-          [this](const ContactStep &step, const Vector &u) {
-            add_step(step, u);
-          },
-          [this](const unsigned int i) {
-            repeat_until_flow_agrees();
+          after_step,
+          [&](const unsigned int i) {
+            agree();
             progress.message("    " + describe_stage(scene, i));
             removed_blocks.insert(removed_blocks.end(),
                                   stages[i].removed_blocks.begin(),
                                   stages[i].removed_blocks.end());
           });
-        repeat_until_flow_agrees();
+        agree();
       }
       catch (const NumericalFailure &)
       {
         n_last_cuts       = equilibrium->last_attempt().n_cuts;
         n_last_iterations = equilibrium->last_attempt().n_lost_iterations;
         throw;
-      }
-    }
-
-
-    void
-    NonlinearAnalysis::repeat_until_flow_agrees()
-    {
-      constexpr unsigned int max_repetitions = 100;
-      LoadSteps              again;
-      again.leaves_out_reached = false;
-      again.load_factors       = {equilibrium->load_factor()};
-      for (unsigned int i = 0; joint_water && !joint_water->agrees(); ++i)
-      {
-        AssertThrow(i < max_repetitions,
-                    NumericalFailure("The flow in joints and their apertures "
-                                     "do not agree after " +
-                                       std::to_string(i) + " repetitions: " +
-                                       joint_water->progress(),
-                                     "load factor " +
-                                       to_text(equilibrium->load_factor()),
-                                     "choose a higher 'Contact/Normal "
-                                     "stiffness', or a higher "
-                                     "'Water/Residual aperture'"));
-        equilibrium->run(again,
-                         [this](const ContactStep &step, const Vector &u) {
-                           add_step(step, u);
-                         });
       }
     }
 

@@ -105,11 +105,6 @@ namespace NMM
       void
       run_stages();
 
-      /// Repeats the last load step until the flow in joints and their apertures agree. @throws
-      /// NumericalFailure if they do not.
-      void
-      repeat_until_flow_agrees();
-
       /// "load factor 1.5", with the name of the stage.
       std::string
       describe_step(double load_factor) const;

@@ -58,7 +58,7 @@ namespace NMM
                                           /* has_contact = */ true);
       how.contact_update    = update_in_relaxation(how.scheme);
       how.newton            = motion_newton_parameters(scene, progress);
-      how.further_terms     = further_terms(scene, false);
+      how.further_terms     = further_terms(scene);
       reduction             = std::make_unique<StrengthReduction>(*solid,
                                                       problem,
                                                       std::move(parameters),

@@ -6,6 +6,7 @@
 #include <analysis/mechanism.h>
 #include <iomanip>
 #include <memory>
+#include <scene/bolts.h>
 #include <scene/cut_notice.h>
 #include <scene/joint_water.h>
 #include <scene/static_start.h>
@@ -44,7 +45,13 @@ namespace NMM
         how.kinematics = parameters.model.kinematics;
         how.full       = input.scene.loads_before_stages();
         how.newton = show_iterations(parameters.newton.newton, input.progress);
-        how.further_terms = further_terms(input.scene, true);
+        how.further_terms =
+          SceneBolts::makers(input.scene, SceneBolts::Installed::in_stages);
+        const std::unique_ptr<SceneJointWater> joint_water =
+          SceneJointWater::make(input.scene);
+        if (joint_water)
+          how.further_terms.push_back(
+            joint_water->maker(/* is_at_rest = */ true));
         Equilibrium equilibrium(input.solid, input.problem, how, input.contact);
         LoadSteps   steps = parameters.load_steps.load_steps();
         // One linear problem needs no steps.
@@ -52,21 +59,25 @@ namespace NMM
           steps = LoadSteps();
         const std::vector<StageChange> stages =
           input.scene.make_stages(input.solid.physical_mesh());
+        const auto after_step = [&](const ContactStep &step, const Vector &) {
+          ++report.n_steps;
+          report.n_iterations += step.n_iterations + step.n_lost_iterations;
+          show_load(stage, report, step.load_factor);
+          stop_if_asked(input.solid.covers().communicator());
+        };
+        const auto agree = [&]() {
+          if (joint_water)
+            joint_water->repeat_until_flow_agrees(equilibrium, after_step);
+        };
         equilibrium.run_stages(
-          steps,
-          stages,
-          [&](const ContactStep &step, const Vector &) {
-            ++report.n_steps;
-            report.n_iterations += step.n_iterations + step.n_lost_iterations;
-            show_load(stage, report, step.load_factor);
-            stop_if_asked(input.solid.covers().communicator());
-          },
-          [&](const unsigned int i) {
+          steps, stages, after_step, [&](const unsigned int i) {
+            agree();
             input.progress.message("  " + describe_stage(input.scene, i));
             report.removed_blocks.insert(report.removed_blocks.end(),
                                          stages[i].removed_blocks.begin(),
                                          stages[i].removed_blocks.end());
           });
+        agree();
         if (const InelasticTerms *terms =
               equilibrium.solid_term().inelastic_terms())
           report.material_state = terms->internal_state();
@@ -175,7 +186,7 @@ namespace NMM
         result.contact_update     = ContactUpdate::every_step;
         result.is_accounted       = false;
         result.newton = motion_newton_parameters(input.scene, input.progress);
-        result.further_terms = further_terms(input.scene, false);
+        result.further_terms = further_terms(input.scene);
         return result;
       }
     } // namespace

@@ -45,7 +45,8 @@ namespace NMM
    *
    * Heads: at outer boundaries below the table, its elevation; at boundaries and holes above it, and
    * at all holes, the air (FlowNetwork::Node::is_in_air); nothing flows through impermeable ones, nor
-   * at ends of joints in blocks.
+   * at ends of joints in blocks. Where the block on one side of a link is gone, the joint is open to
+   * the air: the link is left out, and its nodes are faces in the air.
    *
    * Staggered: the flow is computed at the beginning of each step with the apertures there, and its
    * pressures are kept during the step. change() tells how much they have changed by that. A relaxation
@@ -74,6 +75,9 @@ namespace NMM
 
     StepWork
     commit(const Trial &step) override;
+
+    void
+    set_presence(const Presence &presence) override;
 
     /// @{
     /// The network with its present apertures, the flow in it, and positions of its nodes [m].
@@ -120,10 +124,18 @@ namespace NMM
     update(const Vector &u);
 
   private:
-    /// An owned face of a link.
+    /// An edge on a joint, with the blocks on both sides, whether both are there or not.
+    struct Edge
+    {
+      FlowNetwork::Link         link;
+      std::string               joint;
+      std::vector<unsigned int> blocks = {};
+    };
+
+    /// An owned face of an edge.
     struct Face
     {
-      unsigned int link, element;
+      unsigned int edge, element;
       /// Weight functions at both ends of the link times the outward normal there, and their
       /// integrals over the face with the pressure's linear functions of both ends.
       std::array<std::vector<dealii::Tensor<1, 2>>, 2> at_ends, integrals;
@@ -136,15 +148,31 @@ namespace NMM
     NetworkFlow                   found;
     std::vector<dealii::Point<2>> nodes;
     std::vector<std::string>      names;
-    std::vector<Face>             faces;
-    Vector                        force;
-    double                        last_change = 0.;
+    std::vector<Edge>             edges;
+    /// Link of each edge; invalid_index if a block beside it is gone.
+    std::vector<unsigned int> link_of_edge;
+    std::vector<bool>         absent_blocks;
+    /// Nodes at outer faces in the air.
+    std::vector<bool> is_in_air;
+    std::vector<Face> faces;
+    Vector            force;
+    double            last_change = 0.;
 
     void
     find_links(const Solid &solid);
 
     void
-    add_face(unsigned int link, unsigned int element, const ElementEdge &edge);
+    add_face(unsigned int       number,
+             unsigned int       element,
+             const ElementEdge &edge);
+
+    /// Makes links of all edges whose blocks are there.
+    void
+    set_links();
+
+    /// Sets `force` by the pressures of the last flow. Collective.
+    void
+    assemble_force();
 
     void
     set_heads(const Solid &solid);

@@ -1,24 +1,11 @@
 #include <algorithm>
 #include <analysis/staged_loads.h>
+#include <mechanics/load_amplitudes.h>
 
 namespace NMM
 {
   namespace internal
   {
-    LoadAmplitudes
-    StagedLoads::complete(LoadAmplitudes amplitudes) const
-    {
-      const auto fill = [](std::vector<double> &list, const std::size_t n) {
-        if (list.empty())
-          list.assign(n, 1.);
-      };
-      fill(amplitudes.boundary_conditions, problem.boundary_conditions.size());
-      fill(amplitudes.point_forces, problem.point_forces.size());
-      fill(amplitudes.fixed_points, problem.fixed_points.size());
-      return amplitudes;
-    }
-
-
     LoadAmplitudes
     StagedLoads::at(const double load_factor) const
     {
@@ -49,8 +36,11 @@ namespace NMM
                              const double                         end,
                              const std::optional<LoadAmplitudes> &at_end)
     {
-      const LoadAmplitudes at_begin = complete(at(begin));
-      stage = {begin, end, at_begin, at_end ? complete(*at_end) : at_begin};
+      const LoadAmplitudes at_begin = completed(problem, at(begin));
+      stage                         = {begin,
+                                       end,
+                                       at_begin,
+               at_end ? completed(problem, *at_end) : at_begin};
     }
   } // namespace internal
 } // namespace NMM

@@ -52,10 +52,6 @@ namespace NMM
       Loading                  proportional;
       /// Empty before the first one.
       std::optional<Stage> stage;
-
-      /// Writes an amplitude for each condition, force and point.
-      LoadAmplitudes
-      complete(LoadAmplitudes amplitudes) const;
     };
   } // namespace internal
 } // namespace NMM

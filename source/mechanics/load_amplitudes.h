@@ -35,6 +35,21 @@ namespace NMM
     }
 
 
+    /// @p amplitudes with an entry for each condition, force and point.
+    inline LoadAmplitudes
+    completed(const ElasticityProblem &problem, LoadAmplitudes amplitudes)
+    {
+      const auto fill = [](std::vector<double> &list, const std::size_t n) {
+        if (list.empty())
+          list.assign(n, 1.);
+      };
+      fill(amplitudes.boundary_conditions, problem.boundary_conditions.size());
+      fill(amplitudes.point_forces, problem.point_forces.size());
+      fill(amplitudes.fixed_points, problem.fixed_points.size());
+      return amplitudes;
+    }
+
+
     /// Whether a support that @p before has is removed in @p after.
     inline bool
     releases_more(const LoadAmplitudes &before, const LoadAmplitudes &after)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <mechanics/load_amplitudes.h>
 #include <memory>
 #include <sstream>
 
@@ -15,15 +16,8 @@ namespace NMM
   proportional_loading(const ElasticityProblem &problem,
                        const LoadAmplitudes    &full)
   {
-    LoadAmplitudes at_one = full;
-    const auto     fill   = [](std::vector<double> &list, const std::size_t n) {
-      if (list.empty())
-        list.assign(n, 1.);
-    };
-    fill(at_one.boundary_conditions, problem.boundary_conditions.size());
-    fill(at_one.point_forces, problem.point_forces.size());
-    fill(at_one.fixed_points, problem.fixed_points.size());
-    Loading loading;
+    const LoadAmplitudes at_one = internal::completed(problem, full);
+    Loading              loading;
     loading.amplitudes = [at_one](const double t) {
       LoadAmplitudes amplitudes = at_one;
       for (std::vector<double> *list : {&amplitudes.boundary_conditions,

@@ -425,6 +425,47 @@ namespace NMM
   }
 
 
+  namespace
+  {
+    /// Loads that act where a support holds all of what they push: the support bears them, and
+    /// Nitsche's method lets it give way by the load over its penalty.
+    void
+    add_loads_on_supports(const SceneParameters    &parameters,
+                          std::vector<std::string> &notices)
+    {
+      using Type = BoundaryCondition::Type;
+      std::set<std::string> staged;
+      for (const StageParameters &stage : parameters.stages)
+        for (const auto *names :
+             {&stage.added_conditions, &stage.removed_conditions})
+          staged.insert(names->begin(), names->end());
+      for (const auto &load : parameters.boundary_conditions)
+        for (const auto &support : parameters.boundary_conditions)
+        {
+          const bool is_pressure = load.type == Type::pressure ||
+                                   load.type == Type::follower_pressure,
+                     is_held =
+                       support.type == Type::displacement
+                         ? support.components[0] && support.components[1]
+                         : support.type == Type::normal_displacement &&
+                             is_pressure;
+          if (!is_held || !(is_pressure || load.type == Type::traction) ||
+              staged.count(load.name) > 0 || staged.count(support.name) > 0)
+            continue;
+          for (const std::string &boundary : load.boundaries)
+            if (std::find(support.boundaries.begin(),
+                          support.boundaries.end(),
+                          boundary) != support.boundaries.end())
+              notices.push_back(
+                "the load '" + load.name + "' acts on '" + boundary +
+                "', which '" + support.name +
+                "' holds: it does nothing but make the support give way by "
+                "some thousandths of what it would do to the solid");
+        }
+    }
+  } // namespace
+
+
   std::vector<std::string>
   SceneParameters::notices() const
   {
@@ -459,6 +500,7 @@ namespace NMM
                            "then depend on the mesh, and so may limit loads; "
                            "compare two meshes");
       }
+    add_loads_on_supports(*this, result);
     return result;
   }
 

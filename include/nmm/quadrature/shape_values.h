@@ -217,13 +217,66 @@ namespace NMM
   };
 
 
+  namespace internal
+  {
+    /// What views of shape functions have in common: the values and gradients of fields, by value()
+    /// and gradient() of the derived class.
+    template <typename View, typename Value, typename Gradient>
+    class FieldView
+    {
+    public:
+      /// Values of the field with the unknowns @p solution at all points; sets the size of @p result.
+      template <typename VectorType>
+      void
+      get_function_values(const VectorType   &solution,
+                          std::vector<Value> &result) const
+      {
+        sum_up(
+          solution,
+          values->get_dof_indices(),
+          values->n_quadrature_points(),
+          [this](const unsigned int i, const unsigned int q) {
+            return static_cast<const View *>(this)->value(i, q);
+          },
+          result);
+      }
+
+      /// Gradients of that field [1/m].
+      template <typename VectorType>
+      void
+      get_function_gradients(const VectorType      &solution,
+                             std::vector<Gradient> &result) const
+      {
+        sum_up(
+          solution,
+          values->get_dof_indices(),
+          values->n_quadrature_points(),
+          [this](const unsigned int i, const unsigned int q) {
+            return static_cast<const View *>(this)->gradient(i, q);
+          },
+          result);
+      }
+
+    protected:
+      explicit FieldView(const ShapeValues &values)
+        : values(&values)
+      {
+      }
+
+      const ShapeValues *values;
+    };
+  } // namespace internal
+
+
   /// One component of shape functions and fields.
   class ShapeValues::ScalarView
+    : public internal::
+        FieldView<ShapeValues::ScalarView, double, dealii::Tensor<1, 2>>
   {
   public:
     /// Component @p component of @p values, which must outlive this object.
     ScalarView(const ShapeValues &values, const unsigned int component)
-      : values(&values)
+      : FieldView(values)
       , component(component)
     {
     }
@@ -242,51 +295,21 @@ namespace NMM
       return values->shape_grad_component(i, q, component);
     }
 
-    /// Values of the field with the unknowns @p solution at all points; sets the size of @p result.
-    template <typename VectorType>
-    void
-    get_function_values(const VectorType    &solution,
-                        std::vector<double> &result) const
-    {
-      internal::sum_up(
-        solution,
-        values->get_dof_indices(),
-        values->n_quadrature_points(),
-        [this](const unsigned int i, const unsigned int q) {
-          return value(i, q);
-        },
-        result);
-    }
-
-    /// Gradients of that field [1/m].
-    template <typename VectorType>
-    void
-    get_function_gradients(const VectorType                  &solution,
-                           std::vector<dealii::Tensor<1, 2>> &result) const
-    {
-      internal::sum_up(
-        solution,
-        values->get_dof_indices(),
-        values->n_quadrature_points(),
-        [this](const unsigned int i, const unsigned int q) {
-          return gradient(i, q);
-        },
-        result);
-    }
-
   private:
-    const ShapeValues *values;
-    unsigned int       component;
+    unsigned int component;
   };
 
 
   /// Two components of shape functions and fields, as a vector.
   class ShapeValues::VectorView
+    : public internal::FieldView<ShapeValues::VectorView,
+                                 dealii::Tensor<1, 2>,
+                                 dealii::Tensor<2, 2>>
   {
   public:
     /// Components @p first and @p first + 1 of @p values, which must outlive this object.
     VectorView(const ShapeValues &values, const unsigned int first)
-      : values(&values)
+      : FieldView(values)
       , first(first)
     {
     }
@@ -333,38 +356,6 @@ namespace NMM
       return c < 2 ? values->shape_grad(i, q)[c] : 0.;
     }
 
-    /// Values of the field with the unknowns @p solution at all points; sets the size of @p result.
-    template <typename VectorType>
-    void
-    get_function_values(const VectorType                  &solution,
-                        std::vector<dealii::Tensor<1, 2>> &result) const
-    {
-      internal::sum_up(
-        solution,
-        values->get_dof_indices(),
-        values->n_quadrature_points(),
-        [this](const unsigned int i, const unsigned int q) {
-          return value(i, q);
-        },
-        result);
-    }
-
-    /// Gradients of that field [1/m].
-    template <typename VectorType>
-    void
-    get_function_gradients(const VectorType                  &solution,
-                           std::vector<dealii::Tensor<2, 2>> &result) const
-    {
-      internal::sum_up(
-        solution,
-        values->get_dof_indices(),
-        values->n_quadrature_points(),
-        [this](const unsigned int i, const unsigned int q) {
-          return gradient(i, q);
-        },
-        result);
-    }
-
   private:
     /// 0 or 1, or a larger number for shape functions of other components.
     unsigned int
@@ -373,8 +364,7 @@ namespace NMM
       return values->dof_to_component[i] - first;
     }
 
-    const ShapeValues *values;
-    unsigned int       first;
+    unsigned int first;
   };
 
 
